@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef TRL_TERRELLA_H
+#define TRL_TERRELLA_H
+
+/// @file
+/// Everything of the library.
+
+#include <terrella/atmosphere.h>
+#include <terrella/base.h>
+#include <terrella/context.h>
+#include <terrella/image.h>
+#include <terrella/renderer.h>
+#include <terrella/scene.h>
+
+#endif // TRL_TERRELLA_H

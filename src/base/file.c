@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "base/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static trl_result fail_read(const trl_context *ctx, const char *path, const char *why)
+{
+    return trl_fail(ctx, TRL_ERROR_IO, TRL_LOG_ITEM_FILE_READ, "cannot read %s: %s", path, why);
+}
+
+static trl_result fail_write(const trl_context *ctx, const char *path, const char *why)
+{
+    return trl_fail(ctx, TRL_ERROR_IO, TRL_LOG_ITEM_FILE_WRITE, "cannot write %s: %s", path, why);
+}
+
+trl_result file_read(const trl_context *ctx, const char *path, size_t max_bytes, char **data,
+                     size_t *size)
+{
+    *data = NULL;
+    *size = 0;
+    FILE *file = fopen(path, "rb");
+    struct stat info;
+    if (!file || fstat(fileno(file), &info) != 0) {
+        const char *why = strerror(errno);
+        if (file) {
+            fclose(file);
+        }
+        return fail_read(ctx, path, why);
+    }
+    trl_result result = TRL_OK;
+    const size_t bytes = info.st_size > 0 ? (size_t)info.st_size : 0;
+    if (!S_ISREG(info.st_mode)) {
+        result = fail_read(ctx, path, "not a file");
+    } else if (bytes > max_bytes) {
+        result = fail_read(ctx, path, "larger than allowed");
+    } else if (!(*data = mem_alloc(ctx, bytes + 1, 1))) {
+        result = TRL_ERROR_MEMORY;
+    } else if (fread(*data, 1, bytes, file) != bytes) {
+        result = fail_read(ctx, path, "it ends early");
+        mem_free(ctx, *data);
+        *data = NULL;
+    } else {
+        *size = bytes;
+    }
+    fclose(file);
+    return result;
+}
+
+trl_result file_replacement_begin(const trl_context *ctx, const char *path,
+                                  struct file_replacement *out)
+{
+    *out = (struct file_replacement){0};
+    out->path = mem_strdup(ctx, path);
+    out->temp_path = mem_printf(ctx, "%s.%ld.partial", path, (long)getpid());
+    if (!out->path || !out->temp_path) {
+        mem_free(ctx, out->path);
+        mem_free(ctx, out->temp_path);
+        *out = (struct file_replacement){0};
+        return TRL_ERROR_MEMORY;
+    }
+    struct stat info;
+    const bool is_special = stat(path, &info) == 0 && !S_ISREG(info.st_mode);
+    const int fd = is_special ? -1 : open(out->temp_path, O_CREAT | O_WRONLY | O_TRUNC, 0666);
+    if (fd < 0) {
+        const trl_result result =
+            fail_write(ctx, path, is_special ? "not a regular file" : strerror(errno));
+        mem_free(ctx, out->path);
+        mem_free(ctx, out->temp_path);
+        *out = (struct file_replacement){0};
+        return result;
+    }
+    close(fd);
+    return TRL_OK;
+}
+
+// The data must be on disk before the name is, or a power cut could leave a named empty file.
+static bool sync_file(const char *path)
+{
+    const int fd = open(path, O_WRONLY);
+    if (fd < 0) {
+        return false;
+    }
+    const bool is_synced = fsync(fd) == 0;
+    return close(fd) == 0 && is_synced;
+}
+
+trl_result file_replacement_commit(const trl_context *ctx, struct file_replacement *r)
+{
+    if (!sync_file(r->temp_path) || rename(r->temp_path, r->path) != 0) {
+        const trl_result result = fail_write(ctx, r->path, strerror(errno));
+        file_replacement_abort(ctx, r);
+        return result;
+    }
+    mem_free(ctx, r->path);
+    mem_free(ctx, r->temp_path);
+    *r = (struct file_replacement){0};
+    return TRL_OK;
+}
+
+void file_replacement_abort(const trl_context *ctx, struct file_replacement *r)
+{
+    if (r->temp_path) {
+        unlink(r->temp_path);
+    }
+    mem_free(ctx, r->path);
+    mem_free(ctx, r->temp_path);
+    *r = (struct file_replacement){0};
+}
+
+trl_result file_write(const trl_context *ctx, const char *path, const void *data, size_t size)
+{
+    struct file_replacement r;
+    trl_result result = file_replacement_begin(ctx, path, &r);
+    if (result != TRL_OK) {
+        return result;
+    }
+    FILE *file = fopen(r.temp_path, "wb");
+    bool is_written = file != NULL && fwrite(data, 1, size, file) == size;
+    if (file) {
+        is_written = fclose(file) == 0 && is_written;
+    }
+    if (!is_written) {
+        result = fail_write(ctx, path, strerror(errno));
+        file_replacement_abort(ctx, &r);
+        return result;
+    }
+    return file_replacement_commit(ctx, &r);
+}
+
+trl_result file_make_dirs(const trl_context *ctx, const char *path)
+{
+    char *partial = mem_strdup(ctx, path);
+    if (!partial) {
+        return TRL_ERROR_MEMORY;
+    }
+    trl_result result = TRL_OK;
+    for (char *at = partial + 1; result == TRL_OK; at++) {
+        if (*at != '/' && *at != '\0') {
+            continue;
+        }
+        const char kept = *at;
+        *at = '\0';
+        if (mkdir(partial, 0777) != 0 && errno != EEXIST) {
+            result = fail_write(ctx, partial, strerror(errno));
+        }
+        *at = kept;
+        if (kept == '\0') {
+            break;
+        }
+    }
+    mem_free(ctx, partial);
+    return result;
+}

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_SCENE_H
+#define SCENE_SCENE_H
+// A scene as read from its file: physics, surface layers, named views.
+
+#include "scatter/medium.h"
+#include <terrella/scene.h>
+
+enum { SCENE_MAX_LAYERS = 32, SCENE_MAX_VIEWS = 256 };
+
+enum layer_kind {
+    LAYER_ELEVATION, // metres above the reference sphere
+    LAYER_COLOUR,    // sRGB picture of the ground's albedo
+    LAYER_WATER,     // 1 = open water
+    LAYER_LIGHTS     // sRGB picture of artificial light at night
+};
+
+// One raster of the surface; later layers of a kind lie over earlier ones where they have data.
+struct layer {
+    enum layer_kind kind;
+    char *name;        // owned
+    char *file;        // owned; as in the scene
+    char *path;        // owned; where it was found: beside the scene, else in the data folder; the latter
+                       // also when it is in neither
+    bool is_optional;  // a missing file is no error
+    double scale;      // elevation: metres per unit of the raster
+    double offset_m;   // elevation
+    double feather_deg; // width of the blend at the layer's border
+    double radiance_cd_m2; // lights: luminance of white
+};
+
+struct trl_scene {
+    const trl_context *ctx;
+    char *name;
+    struct medium medium;
+    size_t layer_count;
+    struct layer layers[SCENE_MAX_LAYERS];
+    size_t view_count;
+    char *view_names[SCENE_MAX_VIEWS];
+    trl_view views[SCENE_MAX_VIEWS];
+};
+
+#endif // SCENE_SCENE_H
