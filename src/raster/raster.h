@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef RASTER_RASTER_H
+#define RASTER_RASTER_H
+// Rasters in files, read through GDAL: where they lie on the sphere and what their pixels hold.
+//
+// A raster is equirectangular: columns run east along a parallel, rows run south along a meridian,
+// both in equal steps of degrees. Borders are those of the outer pixels' outer edges, whatever the
+// file's registration. A file without georeference is taken for the whole globe, left edge at 180
+// W, when it is exactly twice as wide as high; anything else is an error.
+
+#include "base/context.h"
+
+// Larger pictures are refused: no offset of a pixel then overflows, and a broken header cannot ask
+// for more memory than there is.
+enum { RASTER_MAX_SIDE = 1 << 20, RASTER_MAX_BANDS = 64 };
+
+enum raster_type {
+    RASTER_UINT8, // colour, masks
+    RASTER_INT16, // elevations
+    RASTER_FLOAT  // everything else, as GDAL converts it
+};
+
+// Owner: whoever opened it. Threads: one at a time (GDAL's datasets are not shareable); open it
+// twice to read from two.
+struct raster {
+    const trl_context *ctx;
+    char *path;    // owned
+    void *dataset; // GDALDatasetH, owned
+    uint32_t width, height;
+    uint32_t band_count;
+    enum raster_type type; // of the first band's file type
+    double west_deg, east_deg, south_deg,
+        north_deg;                            // west in [-180, 180); east > west, to west + 360
+    double pixel_width_deg, pixel_height_deg; // both > 0
+    bool is_whole_circle;                     // east and west borders meet: columns wrap around
+    bool has_nodata;
+    double nodata;
+};
+
+// Opens a local file. Nothing of its pixels is read yet.
+// Returns TRL_OK; TRL_ERROR_IO (missing or unreadable); TRL_ERROR_INVALID (not a raster, not
+// equirectangular, beyond the bounds above); TRL_ERROR_MEMORY. *out is zeroed on failure.
+TRL_MUST_USE trl_result raster_open(const trl_context *ctx, const char *path, struct raster *out);
+
+// Closes it. A zeroed raster is a no-op.
+void raster_finish(struct raster *raster);
+
+// A rectangle of pixels of the file, delivered at `out_width` x `out_height`: the same size, or
+// smaller by averaging (from overviews where the file has them). Must lie inside the raster.
+struct raster_window {
+    uint32_t x, y, width, height;
+    uint32_t out_width, out_height;
+};
+
+// The whole raster, no larger than `max_side` in either direction (0: as it is).
+struct raster_window raster_window_whole(const struct raster *raster, uint32_t max_side);
+
+// Reads one band (from 0) as floats, north row first. Pixels without data become NaN.
+// Returns TRL_OK; TRL_ERROR_INVALID (window or band outside); TRL_ERROR_IO (the file is broken).
+TRL_MUST_USE trl_result raster_read_float(const struct raster *raster,
+                                          const struct raster_window *window, uint32_t band,
+                                          float *out);
+
+// Reads 8-bit pixels as RGBA, north row first. One band gives grey, two grey and alpha, three RGB;
+// a missing alpha is 255, or 0 where a pixel has no data. Returns as above; TRL_ERROR_INVALID also
+// when the raster is not 8-bit.
+TRL_MUST_USE trl_result raster_read_rgba8(const struct raster *raster,
+                                          const struct raster_window *window, uint8_t *out);
+
+// Reads one 8-bit band (from 0). Returns as raster_read_rgba8.
+TRL_MUST_USE trl_result raster_read_uint8(const struct raster *raster,
+                                          const struct raster_window *window, uint32_t band,
+                                          uint8_t *out);
+
+// Reads a band of integers as int16, clamped; for height maps kept at half the memory. Pixels
+// without data keep the file's own value. Returns TRL_OK; TRL_ERROR_INVALID; TRL_ERROR_IO.
+TRL_MUST_USE trl_result raster_read_int16(const struct raster *raster,
+                                          const struct raster_window *window, uint32_t band,
+                                          int16_t *out);
+
+#endif // RASTER_RASTER_H
