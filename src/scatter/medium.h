@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #ifndef SCATTER_MEDIUM_H
 #define SCATTER_MEDIUM_H
-// The participating medium as physics: constituents in spherical shells over a Lambertian ground, lit by a star.
+// The participating medium as physics: constituents in spherical shells over a Lambertian ground,
+// lit by a star.
 
 #include "spectrum/spectrum.h"
 
@@ -32,7 +33,8 @@ enum phase_kind {
     PHASE_RAYLEIGH,
     PHASE_HENYEY_GREENSTEIN,
     PHASE_CORNETTE_SHANKS,
-    PHASE_TABLE // linear in the angle between the knots, constant outside; normalised when it is made
+    PHASE_TABLE // linear in the angle between the knots, constant outside; normalised when it is
+                // made
 };
 
 struct phase {
@@ -59,9 +61,9 @@ struct constituent {
 };
 
 struct medium {
-    double ground_radius_m; // > 0
-    double top_radius_m;    // > ground_radius_m: no matter above
-    struct spectrum ground_albedo; // Lambertian, in [0, 1]
+    double ground_radius_m;          // > 0
+    double top_radius_m;             // > ground_radius_m: no matter above
+    struct spectrum ground_albedo;   // Lambertian, in [0, 1]
     struct spectrum star_irradiance; // W m^-2 nm^-1 at the planet, on a plane facing the star
     double star_angular_radius_rad;  // >= 0
     size_t constituent_count;

@@ -11,7 +11,8 @@ enum spectrum_kind {
     SPECTRUM_TABLE,        // linear between the knots, constant outside
     SPECTRUM_POWER_LAW,    // value * (nm / at_nm)^exponent
     SPECTRUM_RAYLEIGH,     // scattering of a gas per metre, Elek 2010 Eq. 1-2 (no depolarisation)
-    SPECTRUM_BLACKBODY     // irradiance W m^-2 nm^-1 of a black body whose whole spectrum sums to total_W_m2
+    SPECTRUM_BLACKBODY     // irradiance W m^-2 nm^-1 of a black body whose whole spectrum sums to
+                           // total_W_m2
 };
 
 struct spectrum {
@@ -38,7 +39,7 @@ struct spectrum {
 // The value at one wavelength, nm > 0.
 double spectrum_at(const struct spectrum *spectrum, double nm);
 
-// The mean over [from_nm, to_nm], from < to: exact for tables, else fine trapezoids.
+// The mean over [from_nm, to_nm], from < to: exact for tables, else by Simpson's rule.
 double spectrum_mean(const struct spectrum *spectrum, double from_nm, double to_nm);
 
 // Copies `count` knots (ascending nm) into a table spectrum.
