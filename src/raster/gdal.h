@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef RASTER_GDAL_H
+#define RASTER_GDAL_H
+// GDAL's messages, caught: it may print nothing, and what it said becomes part of our one line of
+// error.
+
+#include "base/context.h"
+
+// Between begin and end, GDAL's messages on this thread go to `message` (the first failure) or,
+// when they are only warnings, to the log at debug level.
+struct gdal_catcher {
+    const trl_context *ctx;
+    char message[512];
+};
+
+// `catcher` must stay where it is until the end.
+void gdal_catch_begin(struct gdal_catcher *catcher, const trl_context *ctx);
+void gdal_catch_end(struct gdal_catcher *catcher);
+
+// Registers GDAL's drivers, once a process. Threads: any.
+void gdal_register(void);
+
+#endif // RASTER_GDAL_H

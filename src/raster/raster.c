@@ -1,0 +1,344 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "raster/raster.h"
+
+#include "raster/gdal.h"
+
+#include <cpl_conv.h>
+#include <errno.h>
+#include <gdal.h>
+#include <math.h>
+#include <ogr_srs_api.h>
+#include <string.h>
+#include <sys/stat.h>
+
+// Borders may stick out by this part of a pixel: georeferences are written with few digits.
+static const double BORDER_SLACK = 1e-3;
+
+// Local formats with pixels of their own. Others (VRT, WMS, …) point elsewhere, also to the
+// network, and a planet's data must not do that unasked.
+static const char *const ALLOWED_DRIVERS[] = {
+    "GTiff", "PNG",   "JPEG",  "netCDF",      "HDF5Image", "SRTMHGT", "USGSDEM",
+    "PDS",   "PDS4",  "ISIS3", "EHdr",        "ENVI",      "HFA",     "AAIGrid",
+    "GSBG",  "GS7BG", "DTED",  "JP2OpenJPEG", "WEBP",      "BMP",     NULL};
+
+static trl_result fail_file(const struct raster *raster, trl_result code, const char *why)
+{
+    return trl_fail(raster->ctx, code, TRL_LOG_ITEM_RASTER, "%s: %s", raster->path, why);
+}
+
+// GDAL takes connection strings and network paths for names; only a file that is there may pass.
+static trl_result check_local_file(const struct raster *raster)
+{
+    struct stat info;
+    if (strncmp(raster->path, "/vsi", 4) == 0 || strstr(raster->path, "://")) {
+        return fail_file(raster, TRL_ERROR_INVALID, "rasters are read from local files only");
+    }
+    if (stat(raster->path, &info) != 0) {
+        return fail_file(raster, TRL_ERROR_IO, strerror(errno));
+    }
+    if (!S_ISREG(info.st_mode)) {
+        return fail_file(raster, TRL_ERROR_IO, "not a file");
+    }
+    if (info.st_size == 0) {
+        return fail_file(raster, TRL_ERROR_INVALID, "the file is empty");
+    }
+    return TRL_OK;
+}
+
+static trl_result open_dataset(struct raster *raster)
+{
+    gdal_register();
+    struct gdal_catcher catcher;
+    gdal_catch_begin(&catcher, raster->ctx);
+    // Compressed tiles are unpacked on all cores.
+    CPLSetThreadLocalConfigOption("GDAL_NUM_THREADS", "ALL_CPUS");
+    raster->dataset =
+        GDALOpenEx(raster->path, GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                   ALLOWED_DRIVERS, NULL, NULL);
+    CPLSetThreadLocalConfigOption("GDAL_NUM_THREADS", NULL);
+    gdal_catch_end(&catcher);
+    if (!raster->dataset) {
+        return fail_file(raster, TRL_ERROR_INVALID,
+                         catcher.message[0] ? catcher.message : "not a raster");
+    }
+    return TRL_OK;
+}
+
+static trl_result read_size_and_type(struct raster *raster)
+{
+    const int width = GDALGetRasterXSize(raster->dataset);
+    const int height = GDALGetRasterYSize(raster->dataset);
+    const int bands = GDALGetRasterCount(raster->dataset);
+    if (width < 1 || height < 1 || width > RASTER_MAX_SIDE || height > RASTER_MAX_SIDE) {
+        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: %d x %d pixels; sides from 1 to %d can be read", raster->path, width,
+                        height, RASTER_MAX_SIDE);
+    }
+    if (bands < 1 || bands > RASTER_MAX_BANDS) {
+        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: %d bands; 1 to %d can be read", raster->path, bands, RASTER_MAX_BANDS);
+    }
+    raster->width = (uint32_t)width;
+    raster->height = (uint32_t)height;
+    raster->band_count = (uint32_t)bands;
+    const GDALRasterBandH band = GDALGetRasterBand(raster->dataset, 1);
+    const GDALDataType type = GDALGetRasterDataType(band);
+    if (GDALDataTypeIsComplex(type)) {
+        return fail_file(raster, TRL_ERROR_INVALID, "its pixels are complex numbers");
+    }
+    raster->type = type == GDT_Byte    ? RASTER_UINT8
+                   : type == GDT_Int16 ? RASTER_INT16
+                                       : RASTER_FLOAT;
+    int has_nodata = 0;
+    raster->nodata = GDALGetRasterNoDataValue(band, &has_nodata);
+    raster->has_nodata = has_nodata != 0;
+    return TRL_OK;
+}
+
+static trl_result assume_whole_globe(struct raster *raster)
+{
+    if (raster->width != 2 * raster->height) {
+        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: no georeference, and %u x %u is not the 2:1 of a whole globe",
+                        raster->path, raster->width, raster->height);
+    }
+    raster->west_deg = -180;
+    raster->north_deg = 90;
+    raster->pixel_width_deg = 360.0 / raster->width;
+    raster->pixel_height_deg = 180.0 / raster->height;
+    return TRL_OK;
+}
+
+static trl_result check_projection(const struct raster *raster)
+{
+    const OGRSpatialReferenceH srs = GDALGetSpatialRef(raster->dataset);
+    if (srs && !OSRIsGeographic(srs) && !OSRIsDerivedGeographic(srs)) {
+        const char *name = OSRGetAttrValue(srs, "PROJCS", 0);
+        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: projected (%s); only longitude and latitude can be read", raster->path,
+                        name ? name : "unnamed");
+    }
+    return TRL_OK;
+}
+
+static trl_result check_borders(struct raster *raster)
+{
+    const double across = raster->pixel_width_deg * raster->width;
+    const double down = raster->pixel_height_deg * raster->height;
+    // Grids whose nodes lie on the borders stick out by half a pixel on either side.
+    const double slack_x = raster->pixel_width_deg * (1 + BORDER_SLACK);
+    const double slack_y = raster->pixel_height_deg * (0.5 + BORDER_SLACK);
+    if (across > 360 + slack_x || raster->north_deg > 90 + slack_y ||
+        raster->north_deg - down < -90 - slack_y || fabs(raster->west_deg) > 720) {
+        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: its borders are outside the globe (%g to %g E, %g to %g N)",
+                        raster->path, raster->west_deg, raster->west_deg + across,
+                        raster->north_deg - down, raster->north_deg);
+    }
+    raster->west_deg -= 360 * floor((raster->west_deg + 180) / 360);
+    raster->east_deg = raster->west_deg + across;
+    raster->south_deg = raster->north_deg - down;
+    raster->is_whole_circle = fabs(across - 360) < raster->pixel_width_deg * BORDER_SLACK * 10;
+    return TRL_OK;
+}
+
+static trl_result read_georeference(struct raster *raster)
+{
+    double t[6];
+    if (GDALGetGeoTransform(raster->dataset, t) != CE_None) {
+        const trl_result result = assume_whole_globe(raster);
+        return result == TRL_OK ? check_borders(raster) : result;
+    }
+    const trl_result result = check_projection(raster);
+    if (result != TRL_OK) {
+        return result;
+    }
+    for (int i = 0; i < 6; i++) {
+        if (!isfinite(t[i])) {
+            return fail_file(raster, TRL_ERROR_INVALID, "its georeference is not finite");
+        }
+    }
+    if (t[2] != 0 || t[4] != 0 || !(t[1] > 0) || !(t[5] < 0)) {
+        return fail_file(raster, TRL_ERROR_INVALID,
+                         "it is turned; rows must run east and the first one be the north");
+    }
+    raster->west_deg = t[0];
+    raster->north_deg = t[3];
+    raster->pixel_width_deg = t[1];
+    raster->pixel_height_deg = -t[5];
+    return check_borders(raster);
+}
+
+trl_result raster_open(const trl_context *ctx, const char *path, struct raster *out)
+{
+    *out = (struct raster){.ctx = ctx, .path = mem_strdup(ctx, path)};
+    trl_result result = out->path ? TRL_OK : TRL_ERROR_MEMORY;
+    if (result == TRL_OK) {
+        result = check_local_file(out);
+    }
+    if (result == TRL_OK) {
+        result = open_dataset(out);
+    }
+    if (result == TRL_OK) {
+        struct gdal_catcher catcher;
+        gdal_catch_begin(&catcher, ctx);
+        result = read_size_and_type(out);
+        if (result == TRL_OK) {
+            result = read_georeference(out);
+        }
+        gdal_catch_end(&catcher);
+    }
+    if (result != TRL_OK) {
+        raster_finish(out);
+    }
+    return result;
+}
+
+void raster_finish(struct raster *raster)
+{
+    if (raster->dataset) {
+        struct gdal_catcher catcher;
+        gdal_catch_begin(&catcher, raster->ctx);
+        GDALClose(raster->dataset);
+        gdal_catch_end(&catcher);
+    }
+    if (raster->path) {
+        mem_free(raster->ctx, raster->path);
+    }
+    *raster = (struct raster){0};
+}
+
+struct raster_window raster_window_whole(const struct raster *raster, uint32_t max_side)
+{
+    struct raster_window window = {
+        0, 0, raster->width, raster->height, raster->width, raster->height};
+    const uint32_t longest = raster->width > raster->height ? raster->width : raster->height;
+    if (max_side > 0 && longest > max_side) {
+        // A whole ratio where possible would keep every output pixel's area alike; the nearest size
+        // is what callers with a texture limit want.
+        const double scale = (double)max_side / longest;
+        window.out_width = (uint32_t)fmax(1, round(raster->width * scale));
+        window.out_height = (uint32_t)fmax(1, round(raster->height * scale));
+    }
+    return window;
+}
+
+static trl_result check_window(const struct raster *raster, const struct raster_window *w,
+                               uint32_t band)
+{
+    if (w->width == 0 || w->height == 0 || w->x >= raster->width || w->y >= raster->height ||
+        w->width > raster->width - w->x || w->height > raster->height - w->y || w->out_width == 0 ||
+        w->out_height == 0 || w->out_width > w->width || w->out_height > w->height ||
+        band >= raster->band_count) {
+        return trl_fail(
+            raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+            "%s: window %u,%u %u x %u to %u x %u of band %u is outside %u x %u, %u bands",
+            raster->path, w->x, w->y, w->width, w->height, w->out_width, w->out_height, band,
+            raster->width, raster->height, raster->band_count);
+    }
+    return TRL_OK;
+}
+
+// Where pixels go: `pixel_bytes` from one to the next.
+struct destination {
+    void *pixels;
+    GDALDataType type;
+    int pixel_bytes;
+};
+
+static trl_result read_band(const struct raster *raster, const struct raster_window *w,
+                            uint32_t band, const struct destination *to)
+{
+    trl_result result = check_window(raster, w, band);
+    if (result != TRL_OK) {
+        return result;
+    }
+    GDALRasterIOExtraArg extra;
+    INIT_RASTERIO_EXTRA_ARG(extra);
+    extra.eResampleAlg = GRIORA_Average;
+    struct gdal_catcher catcher;
+    gdal_catch_begin(&catcher, raster->ctx);
+    const CPLErr error = GDALRasterIOEx(
+        GDALGetRasterBand(raster->dataset, (int)band + 1), GF_Read, (int)w->x, (int)w->y,
+        (int)w->width, (int)w->height, to->pixels, (int)w->out_width, (int)w->out_height, to->type,
+        to->pixel_bytes, (GSpacing)to->pixel_bytes * w->out_width, &extra);
+    gdal_catch_end(&catcher);
+    // Some drivers (libpng, libjpeg) report a file that ends early and still say that all is well.
+    if (error != CE_None || catcher.message[0]) {
+        result = fail_file(raster, TRL_ERROR_IO,
+                           catcher.message[0] ? catcher.message : "its pixels cannot be read");
+    }
+    return result;
+}
+
+trl_result raster_read_float(const struct raster *raster, const struct raster_window *window,
+                             uint32_t band, float *out)
+{
+    const struct destination to = {out, GDT_Float32, sizeof *out};
+    const trl_result result = read_band(raster, window, band, &to);
+    if (result != TRL_OK || !raster->has_nodata) {
+        return result;
+    }
+    const float nodata = (float)raster->nodata;
+    const size_t count = (size_t)window->out_width * window->out_height;
+    for (size_t i = 0; i < count; i++) {
+        if (out[i] == nodata) {
+            out[i] = NAN;
+        }
+    }
+    return TRL_OK;
+}
+
+static trl_result check_uint8(const struct raster *raster)
+{
+    return raster->type == RASTER_UINT8
+               ? TRL_OK
+               : fail_file(raster, TRL_ERROR_INVALID, "its pixels are not of 8 bits");
+}
+
+// Alpha of a picture that has none: 0 where a pixel has no data (every colour band is nodata).
+static void fill_alpha(const struct raster *raster, size_t count, uint8_t *rgba)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint8_t *pixel = rgba + 4 * i;
+        const bool is_void = raster->has_nodata && pixel[0] == raster->nodata &&
+                             pixel[1] == raster->nodata && pixel[2] == raster->nodata;
+        pixel[3] = is_void ? 0 : 255;
+    }
+}
+
+trl_result raster_read_rgba8(const struct raster *raster, const struct raster_window *window,
+                             uint8_t *out)
+{
+    trl_result result = check_uint8(raster);
+    const bool is_grey = raster->band_count < 3;
+    const bool has_alpha = raster->band_count == 2 || raster->band_count == 4;
+    for (uint32_t channel = 0; channel < 4 && result == TRL_OK; channel++) {
+        if (channel == 3 && !has_alpha) {
+            break;
+        }
+        const uint32_t band = channel == 3 ? raster->band_count - 1 : is_grey ? 0 : channel;
+        const struct destination to = {out + channel, GDT_Byte, 4};
+        result = read_band(raster, window, band, &to);
+    }
+    if (result == TRL_OK && !has_alpha) {
+        fill_alpha(raster, (size_t)window->out_width * window->out_height, out);
+    }
+    return result;
+}
+
+trl_result raster_read_uint8(const struct raster *raster, const struct raster_window *window,
+                             uint32_t band, uint8_t *out)
+{
+    const struct destination to = {out, GDT_Byte, 1};
+    const trl_result result = check_uint8(raster);
+    return result == TRL_OK ? read_band(raster, window, band, &to) : result;
+}
+
+trl_result raster_read_int16(const struct raster *raster, const struct raster_window *window,
+                             uint32_t band, int16_t *out)
+{
+    const struct destination to = {out, GDT_Int16, sizeof *out};
+    return read_band(raster, window, band, &to);
+}
