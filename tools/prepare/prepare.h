@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef PREPARE_PREPARE_H
+#define PREPARE_PREPARE_H
+// From files as their publishers pack them to the rasters that scenes name. This tool alone knows
+// Earth: where each file lies in its package, what its numbers mean and where it cannot be trusted.
+
+#include "base/context.h"
+
+// Source paths, below the folder that the packages were unpacked into.
+#define SRTM_TILE "usr/share/marble/data/maps/earth/srtm/3/%06d/%06d_%06d.jpg"
+#define BLUE_MARBLE_SMALL "usr/share/marble/data/maps/earth/bluemarble/bluemarble.jpg"
+#define CITY_LIGHTS_SMALL "usr/share/marble/data/maps/earth/citylights/citylights.jpg"
+#define ETOPO5 "usr/share/ferret-vis/data/etopo5.cdf"
+#define TRINIDAD "usr/share/ncarg/data/cdf/trinidad.nc"
+#define BLUE_MARBLE_4K "package/example/img/earth-blue-marble.jpg"
+#define CITY_LIGHTS_4K "package/example/img/earth-night.jpg"
+#define WATER_COARSE "package/example/img/earth-water.png"
+#define WORLD_8K "usr/share/games/flightgear/Models/Astro/world_%c%d.png"
+
+// The land grid: 2 arc minutes, column 0 at 180 W, row 0 at 90 N.
+enum { GLOBE_WIDTH = 10800, GLOBE_HEIGHT = 5400 };
+
+struct places {
+    const trl_context *ctx;
+    const char *source_dir;
+    const char *out_dir;
+};
+
+// "<source_dir>/<relative>", to be freed with mem_free; NULL when memory is out.
+char *source_path(const struct places *places, const char *relative);
+bool source_exists(const struct places *places, const char *relative);
+
+// An 8-bit picture in memory, bands interleaved.
+struct picture {
+    uint32_t width, height, bands;
+    uint8_t *pixels; // owned
+};
+
+TRL_MUST_USE trl_result picture_read(const struct places *places, const char *relative,
+                                     struct picture *out);
+void picture_finish(const struct places *places, struct picture *picture);
+
+// Bilinear, wrapped east to west; u and v in [0, 1] from the north-west corner.
+double picture_sample(const struct picture *picture, uint32_t band, double u, double v);
+
+// What is written: a GeoTIFF in degrees, uncompressed so that it opens at the speed of the disk,
+// with overviews by averaging, whole or not at all.
+enum pixel_kind { PIXEL_UINT8, PIXEL_INT16, PIXEL_FLOAT };
+
+struct geotiff {
+    const char *name; // in the out folder
+    uint32_t width, height, bands;
+    enum pixel_kind kind;
+    double west_deg, north_deg, pixel_width_deg, pixel_height_deg;
+    const void *pixels; // bands interleaved
+    const char *unit;   // of the values, or NULL
+};
+
+TRL_MUST_USE trl_result geotiff_write(const struct places *places, const struct geotiff *geotiff);
+
+// Land height as the Marble map says, in metres, and the map's own grey steps. Both GLOBE_WIDTH x
+// GLOBE_HEIGHT, owned by the caller.
+struct land {
+    uint8_t *grey;
+    float *metres;
+};
+
+TRL_MUST_USE trl_result land_read(const struct places *places, struct land *out);
+void land_finish(const struct places *places, struct land *land);
+
+// Elevation and open water of the whole globe.
+TRL_MUST_USE trl_result earth_prepare_globe(const struct places *places);
+// The inset in Colorado.
+TRL_MUST_USE trl_result earth_prepare_colorado(const struct places *places);
+// The best colour and night light pictures that are there.
+TRL_MUST_USE trl_result earth_prepare_pictures(const struct places *places);
+
+#endif // PREPARE_PREPARE_H
