@@ -19,14 +19,14 @@ enum layer_kind {
 // One raster of the surface; later layers of a kind lie over earlier ones where they have data.
 struct layer {
     enum layer_kind kind;
-    char *name;        // owned
-    char *file;        // owned; as in the scene
-    char *path;        // owned; where it was found: beside the scene, else in the data folder; the latter
-                       // also when it is in neither
-    bool is_optional;  // a missing file is no error
-    double scale;      // elevation: metres per unit of the raster
-    double offset_m;   // elevation
-    double feather_deg; // width of the blend at the layer's border
+    char *name; // owned
+    char *file; // owned; as in the scene
+    char *path; // owned; where it was found: beside the scene, else in the data folder; the latter
+                // also when it is in neither
+    bool is_optional;      // a missing file is no error
+    double scale;          // elevation: metres per unit of the raster
+    double offset_m;       // elevation
+    double feather_deg;    // width of the blend at the layer's border
     double radiance_cd_m2; // lights: luminance of white
 };
 

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_READ_H
+#define SCENE_READ_H
+// The parts of a scene file, each read and checked from its node. What has been read before an
+// error stays in `out`, which the caller finishes. docs/scenes.md is the reference of the format.
+
+#include "scene/node.h"
+#include "scene/scene.h"
+
+// star, planet and atmosphere of the root.
+TRL_MUST_USE trl_result scene_read_medium(const struct scene_node *root, struct medium *out);
+
+TRL_MUST_USE trl_result scene_read_spectrum(const struct scene_node *node,
+                                            const struct scene_range *range, struct spectrum *out);
+TRL_MUST_USE trl_result scene_read_profile(const struct scene_node *node, struct profile *out);
+TRL_MUST_USE trl_result scene_read_phase(const struct scene_node *node, struct phase *out);
+
+// surface.layers and views of the root; both may be missing.
+TRL_MUST_USE trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *out);
+TRL_MUST_USE trl_result scene_read_views(const struct scene_node *root, struct trl_scene *out);
+
+// The path of a file that a scene names: as it is when absolute, else beside the scene when it is
+// there, else in the data folder, whether it is there or not. Free *out with mem_free.
+TRL_MUST_USE trl_result scene_read_path(const struct scene_node *node, char **out);
+
+// Is there a file?
+bool scene_path_exists(const char *path);
+
+#endif // SCENE_READ_H

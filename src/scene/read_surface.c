@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "scene/read.h"
+
+// In the order of enum layer_kind.
+static const char *const kind_keys[] = {"elevation", "colour", "water", "lights", NULL};
+
+// What a layer of a kind may say beside its file.
+static const char *const extra_keys[][6] = {
+    [LAYER_ELEVATION] = {"name", "optional", "feather_deg", "scale", "offset_m", NULL},
+    [LAYER_COLOUR] = {"name", "optional", "feather_deg", NULL},
+    [LAYER_WATER] = {"name", "optional", "feather_deg", NULL},
+    [LAYER_LIGHTS] = {"name", "optional", "feather_deg", "radiance_cd_m2", NULL},
+};
+
+static const char *const any_extra_keys[] = {"name",     "optional",       "feather_deg", "scale",
+                                             "offset_m", "radiance_cd_m2", NULL};
+
+static trl_result read_kind(const struct scene_node *node, enum layer_kind *kind)
+{
+    const struct scene_choice choice = {.forms = kind_keys,
+                                        .extra = any_extra_keys,
+                                        .what = "an object with one of elevation, colour, water, "
+                                                "lights"};
+    size_t index = 0;
+    const trl_result result = scene_node_choose(node, &choice, &index);
+    *kind = (enum layer_kind)index;
+    return result;
+}
+
+// Keys of another kind of layer are unknown keys of this one.
+static trl_result check_extras(const struct scene_node *node, enum layer_kind kind)
+{
+    const char *known[8] = {kind_keys[kind]};
+    for (size_t i = 0; extra_keys[kind][i]; i++) {
+        known[i + 1] = extra_keys[kind][i];
+    }
+    return scene_node_check_keys(node, known);
+}
+
+static trl_result read_numbers(const struct scene_node *node, struct layer *out)
+{
+    const struct scene_range feathers = {.min = 0, .max = 90};
+    const struct scene_range scales = {.min = -1e6, .max = 1e6};
+    const struct scene_range luminances = {.min = 0, .max = 1e6};
+    const struct scene_node feather = scene_node_member(node, "feather_deg");
+    const struct scene_node scale = scene_node_member(node, "scale");
+    const struct scene_node offset = scene_node_member(node, "offset_m");
+    const struct scene_node radiance = scene_node_member(node, "radiance_cd_m2");
+    trl_result result = scene_node_number_or(&feather, &feathers, &out->feather_deg);
+    if (result == TRL_OK) {
+        result = scene_node_number_or(&scale, &scales, &out->scale);
+    }
+    if (result == TRL_OK) {
+        result = scene_node_number_or(&offset, &scales, &out->offset_m);
+    }
+    if (result == TRL_OK) {
+        result = scene_node_number_or(&radiance, &luminances, &out->radiance_cd_m2);
+    }
+    return result;
+}
+
+static trl_result read_strings(const struct scene_node *node, struct layer *out)
+{
+    const trl_context *ctx = node->doc->ctx;
+    const struct scene_node file = scene_node_member(node, kind_keys[out->kind]);
+    const struct scene_node name = scene_node_member(node, "name");
+    trl_result result = scene_read_path(&file, &out->path);
+    const char *text = json_string_value(file.value);
+    if (result == TRL_OK && !(out->file = mem_strdup(ctx, text))) {
+        result = TRL_ERROR_MEMORY;
+    }
+    if (result == TRL_OK && name.value) {
+        result = scene_node_string(&name, &text);
+    }
+    if (result == TRL_OK && !(out->name = mem_strdup(ctx, text))) {
+        result = TRL_ERROR_MEMORY;
+    }
+    return result;
+}
+
+static trl_result read_layer(const struct scene_node *node, struct layer *out)
+{
+    *out = (struct layer){.scale = 1, .feather_deg = 0.1, .radiance_cd_m2 = 1};
+    trl_result result = read_kind(node, &out->kind);
+    if (result == TRL_OK) {
+        result = check_extras(node, out->kind);
+    }
+    if (result == TRL_OK) {
+        result = read_strings(node, out);
+    }
+    if (result == TRL_OK) {
+        result = read_numbers(node, out);
+    }
+    const struct scene_node optional = scene_node_member(node, "optional");
+    return result == TRL_OK ? scene_node_bool_or(&optional, &out->is_optional) : result;
+}
+
+trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *out)
+{
+    const struct scene_node surface = scene_node_member(root, "surface");
+    if (!surface.value) {
+        return TRL_OK;
+    }
+    trl_result result = scene_node_check_keys(&surface, (const char *const[]){"layers", NULL});
+    const struct scene_node layers = scene_node_member(&surface, "layers");
+    if (result == TRL_OK) {
+        result = scene_node_check_array(&layers, SCENE_MAX_LAYERS, "a list of layers");
+    }
+    for (size_t i = 0; result == TRL_OK && i < json_array_size(layers.value); i++) {
+        const struct scene_node element = scene_node_element(&layers, i);
+        out->layer_count = i + 1;
+        result = read_layer(&element, &out->layers[i]);
+    }
+    return result;
+}
