@@ -22,7 +22,7 @@ enum gpu_format {
     GPU_FORMAT_RG32F,
     GPU_FORMAT_RGBA32F,
     GPU_FORMAT_R16I,     // isampler2D in the shader; GPU_FILTER_NEAREST only
-    GPU_FORMAT_DEPTH32F, // 2D only
+    GPU_FORMAT_DEPTH32F, // 2D and GPU_FILTER_NEAREST only
     GPU_FORMAT_COUNT
 };
 
