@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef REFERENCE_PATH_TRACER_H
+#define REFERENCE_PATH_TRACER_H
+// The sky by brute force: backward Monte Carlo paths through spherical shells, one wavelength at a
+// time. It judges the deterministic solver and shares nothing with it but the description of the
+// medium. It has no bias but that of its optical depths, whose quadrature is good to about 1e-5.
+
+#include "scatter/medium.h"
+
+#include <stdint.h>
+
+struct reference_query {
+    double altitude_m;      // >= 0; may be above the atmosphere
+    double sun_zenith_rad;  // [0, pi]
+    double view_zenith_rad; // [0, pi]; above pi/2 looks down
+    double azimuth_rad;     // of the view, from the sun's
+    double wavelength_nm;   // > 0
+};
+
+struct reference_desc {
+    uint64_t paths; // a query, >= 2: a standard error needs two
+    uint64_t seed;
+    int max_order; // scatterings and reflections a path may have; 0 = all
+};
+
+// Radiance in W m^-2 sr^-1 nm^-1 that arrives at the observer (all scattered and reflected light,
+// no solar disc), and its standard error, `count` of each. The numbers depend on the seed, not on
+// the number of threads. An observer on the ground (altitude 0) sees the ground at once below the
+// horizon. TRL_OK, TRL_ERROR_INVALID (the query's index in the log), TRL_ERROR_MEMORY,
+// TRL_ERROR_CANCELLED.
+TRL_MUST_USE trl_result reference_sky_radiance(const trl_context *ctx, const struct medium *medium,
+                                               const struct reference_query *queries, size_t count,
+                                               const struct reference_desc *desc, double *radiance,
+                                               double *standard_error);
+
+#endif // REFERENCE_PATH_TRACER_H
