@@ -207,11 +207,18 @@ static double ocean_metres(double floor_m, double cells_from_coast)
     return shelf + smoothstep(0, 6, cells_from_coast) * (fmin(floor_m, -4) - shelf);
 }
 
-// Near the sea, land is above it; further inland it may be below, as at the Dead Sea.
-static double land_metres(double metres, double cells_from_coast)
+// The land map cannot tell the Netherlands, an ice shelf or the Caspian's shore from a shallow sea:
+// what it puts within 60 m below the sea is pressed into the 20 m above it. What is deeper (the
+// Dead Sea, Death Valley) is so indeed; between -60 and -200 m the two meet.
+static double land_metres(double metres)
 {
-    const double lowest = cells_from_coast < 6 ? 1 : 1 - 20 * (cells_from_coast - 6);
-    return fmax(metres, lowest);
+    if (metres > 20) {
+        return metres;
+    }
+    if (metres > -60) {
+        return 1 + 19 * (metres + 60) / 80;
+    }
+    return metres > -200 ? 1 + 201 * (metres + 60) / 140 : metres;
 }
 
 // Lakes of the coarse mask are kept away from the coast, where it spills over the land.
@@ -226,7 +233,7 @@ static void merge_row(struct globe *globe, int row)
         if (globe->cells[i] == CELL_OCEAN) {
             metres = ocean_metres(sea_floor(globe->etopo, column, row), cells);
         } else {
-            metres = land_metres(metres, cells);
+            metres = land_metres(metres);
         }
         globe->elevation[i] = (int16_t)lrint(metres);
         if (globe->cells[i] != CELL_LAND) {

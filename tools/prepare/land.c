@@ -126,7 +126,7 @@ static int clamp_row(int y)
 
 // How far from its grey a value may go, in greys. Half a step is what rounding hides; the rest is
 // the noise that JPEG adds.
-static const float FREEDOM = 0.75f;
+static const float FREEDOM = 1.0f;
 
 enum { STRIPE = 400 }; // columns that go down together; divides GLOBE_WIDTH
 

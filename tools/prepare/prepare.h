@@ -16,7 +16,7 @@
 #define BLUE_MARBLE_4K "package/example/img/earth-blue-marble.jpg"
 #define CITY_LIGHTS_4K "package/example/img/earth-night.jpg"
 #define WATER_COARSE "package/example/img/earth-water.png"
-#define WORLD_8K "usr/share/games/flightgear/Models/Astro/world_%c%d.png"
+#define WORLD_8K "usr/share/games/flightgear/Models/Astro/Textures/world_%c%d.png"
 
 // The land grid: 2 arc minutes, column 0 at 180 W, row 0 at 90 N.
 enum { GLOBE_WIDTH = 10800, GLOBE_HEIGHT = 5400 };
