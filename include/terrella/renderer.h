@@ -3,8 +3,152 @@
 #ifndef TRL_RENDERER_H
 #define TRL_RENDERER_H
 
+/// @file
+/// Pictures of a scene through OpenGL, without a window or in the caller's.
+///
+///     trl_renderer_desc desc = trl_renderer_desc_default();
+///     desc.scene = scene;
+///     trl_renderer_create(ctx, &desc, &renderer);
+///     trl_renderer_draw(renderer, &view, 1920, 1080, 0);
+///     trl_renderer_read_rgba8(renderer, pixels);
+///
+/// Exposure: a luminance of 1.2 * 2^EV100 cd m^-2 is mapped to 1 before the tone curve (ISO 2720
+/// and ISO 12232 for a lens without losses at ISO 100); bright days are about EV100 15, moonlit
+/// nights about -3.
+
 #include <terrella/scene.h>
 
 TRL_BEGIN
+
+/// Everything needed to draw one scene: tables, rasters, programs, targets.
+/// Owner: caller. Lifetime: destroy before its scene and context. Threads: all calls from the
+/// thread that made it; a renderer of TRL_GL_CURRENT needs the context that was current then to be
+/// current in every call, also in destroy. Renderers of TRL_GL_HEADLESS make their own context
+/// current in each call, so several may live on one thread.
+typedef struct trl_renderer trl_renderer;
+
+/// Where OpenGL comes from.
+typedef enum trl_gl {
+    TRL_GL_HEADLESS, ///< a context of its own, without window or display (EGL)
+    TRL_GL_CURRENT ///< the one that is current on the calling thread: OpenGL 3.3 core or ES 3.0, or
+                   ///< later
+} trl_gl;
+
+enum {
+    TRL_RENDERER_MAX_SIDE = 16384,     ///< of a picture, in pixels; the GL may allow less
+    TRL_RENDERER_MAX_PIXELS = 1 << 26, ///< width times height: what fits into about 4 GB of targets
+    TRL_RENDERER_MAX_WAVELENGTHS = 64  ///< of trl_renderer_desc.wavelengths
+};
+
+typedef struct trl_renderer_desc {
+    uint32_t canary;        ///< set by trl_renderer_desc_default(); never touch
+    const trl_scene *scene; ///< must outlive the renderer
+    trl_gl gl;              ///< default TRL_GL_HEADLESS
+    uint32_t
+        wavelengths; ///< at which light is computed, [1, TRL_RENDERER_MAX_WAVELENGTHS]; default 16
+    bool measures_time; ///< each draw waits for the GPU and fills trl_renderer_timings; default
+                        ///< false
+} trl_renderer_desc;
+
+/// A desc with every default set; the caller adds the scene. Threads: any.
+TRL_API trl_renderer_desc trl_renderer_desc_default(void);
+
+/// Solves the atmosphere or loads it from the context's cache folder, loads the scene's rasters and
+/// compiles programs. Blocks for up to some seconds and tells the context's progress function how
+/// far it is. A missing raster is an error unless its layer is optional.
+/// @param[out] out  new renderer, or NULL on failure
+/// @return TRL_OK; TRL_ERROR_INVALID (argument, or a file's content); TRL_ERROR_MEMORY;
+/// TRL_ERROR_IO (raster);
+///         TRL_ERROR_GPU; TRL_ERROR_UNSUPPORTED (no GL of the kind that is needed);
+///         TRL_ERROR_CANCELLED
+TRL_API TRL_MUST_USE trl_result trl_renderer_create(trl_context *ctx, const trl_renderer_desc *desc,
+                                                    trl_renderer **out);
+
+/// Frees *renderer and sets it to NULL.
+TRL_API void trl_renderer_destroy(trl_renderer **renderer);
+
+/// Draws the scene into the renderer's own targets, which follow the size; nothing is allocated
+/// while it stays the same. Does not wait for the GPU. In a shared context all GL state that it
+/// touches is left changed: the caller sets what it needs afterwards. A camera below the ground, or
+/// less than half a metre above it, is lifted to that height.
+/// @param view       every number finite; ranges as in trl_view
+/// @param width      [1, TRL_RENDERER_MAX_SIDE], with height at most TRL_RENDERER_MAX_PIXELS
+/// @param elapsed_s  since the last frame: automatic exposure follows the picture within about a
+/// second of it.
+///                   0: a single frame, exposed at once for what it shows
+/// @return TRL_OK; TRL_ERROR_INVALID (size or view, named in the log; nothing was drawn);
+/// TRL_ERROR_MEMORY;
+///         TRL_ERROR_GPU
+TRL_API TRL_MUST_USE trl_result trl_renderer_draw(trl_renderer *renderer, const trl_view *view,
+                                                  uint32_t width, uint32_t height,
+                                                  double elapsed_s);
+
+/// Copies the tone-mapped picture into a rectangle of the default framebuffer of the current
+/// context, scaled when the sizes differ. Pixels from the lower left corner; width and height at
+/// least 1.
+/// @return TRL_OK; TRL_ERROR_INVALID (nothing drawn yet; rectangle beyond TRL_RENDERER_MAX_SIDE);
+/// TRL_ERROR_GPU
+TRL_API TRL_MUST_USE trl_result trl_renderer_present(trl_renderer *renderer, uint32_t x, uint32_t y,
+                                                     uint32_t width, uint32_t height);
+
+/// Reads the tone-mapped picture as 8-bit sRGB, alpha 255, top row first. Waits for the GPU.
+/// @param[out] rgba  width x height x 4 bytes, sizes of the last draw
+/// @return TRL_OK; TRL_ERROR_INVALID (nothing drawn yet); TRL_ERROR_MEMORY; TRL_ERROR_GPU
+TRL_API TRL_MUST_USE trl_result trl_renderer_read_rgba8(trl_renderer *renderer, uint8_t *rgba);
+
+/// Reads the picture before exposure: linear sRGB primaries in cd m^-2, alpha 1, top row first,
+/// finite. Colours outside the gamut have negative components. Waits for the GPU.
+/// @param[out] rgba  width x height x 4 floats, sizes of the last draw
+/// @return as trl_renderer_read_rgba8
+TRL_API TRL_MUST_USE trl_result trl_renderer_read_radiance(trl_renderer *renderer, float *rgba);
+
+/// Waits until everything asked for is drawn. For timing.
+TRL_API void trl_renderer_wait(trl_renderer *renderer);
+
+/// The EV100 with which the last frame was exposed, without the view's bias. Waits for the GPU.
+/// @param[out] ev100  finite
+/// @return TRL_OK; TRL_ERROR_INVALID (nothing drawn yet); TRL_ERROR_GPU
+TRL_API TRL_MUST_USE trl_result trl_renderer_exposure(trl_renderer *renderer, double *ev100);
+
+/// Altitude of the ground (or of the sea's surface) above the reference sphere, in metres; 0 where
+/// the scene has no elevation. Any finite longitude; latitude in [-pi/2, pi/2].
+TRL_API double trl_renderer_ground_altitude_m(const trl_renderer *renderer, double latitude_rad,
+                                              double longitude_rad);
+
+/// The same view with the altitude counted from the reference sphere, lifted above the ground as
+/// for a draw, and the star given by its subsolar point: what stays put when the camera moves on
+/// from there.
+/// @return TRL_OK; TRL_ERROR_INVALID (a field is out of range, named in the log)
+TRL_API TRL_MUST_USE trl_result trl_renderer_resolve(const trl_renderer *renderer,
+                                                     const trl_view *view, trl_view *out);
+
+/// How long one pass of the last frame took.
+typedef struct trl_timing {
+    const char *name; ///< "surface", "sky", …; lives as long as the library
+    double gpu_ms;    ///< between its first and last command on the GPU; 0 without timer queries
+    double cpu_ms;    ///< on the calling thread
+} trl_timing;
+
+/// Times of the passes of the last frame, in order; none unless the renderer measures time.
+/// @param[out] rows  the first `capacity` of them; may be NULL when capacity is 0
+/// @return how many there are
+TRL_API size_t trl_renderer_timings(const trl_renderer *renderer, trl_timing *rows,
+                                    size_t capacity);
+
+/// What OpenGL this machine offers without a window.
+typedef struct trl_gpu_info {
+    char vendor[128], renderer[128], version[128]; ///< as the driver says
+    bool is_es;                                    ///< OpenGL ES
+    bool is_software;                              ///< rasterised by the CPU
+    bool has_clip_control, has_timer_query, has_tessellation, has_float_linear, has_debug;
+    float max_anisotropy; ///< 1: none
+    uint32_t max_texture_size, max_3d_size, max_array_layers;
+} trl_gpu_info;
+
+/// Makes a headless context, asks it, and frees it.
+/// @return TRL_OK; TRL_ERROR_INVALID; TRL_ERROR_UNSUPPORTED (none that can be used);
+/// TRL_ERROR_MEMORY
+TRL_API TRL_MUST_USE trl_result trl_gpu_info_read(trl_context *ctx, trl_gpu_info *out);
+
 TRL_END
 #endif // TRL_RENDERER_H
