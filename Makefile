@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 the Terrella authors
+# SPDX-License-Identifier: MIT
+# Short names for common tasks; everything is in tools/ and Meson's files. `make help` lists them.
+
+SHELL := /bin/bash
+BUILD := build/release
+TERRELLA := build/terrella
+DATA := $(or $(TERRELLA_DATA),$(or $(XDG_CACHE_HOME),$(HOME)/.cache)/terrella/data)
+SIZE ?= 1920x1080
+VIEWS ?= orbit himalaya-morning rockies-sunset
+
+# Mesa compiles shaders at the first draw, which takes longer than drawing; what it made is kept.
+export MESA_SHADER_CACHE_DIR ?= $(CURDIR)/build/shader-cache
+
+.PHONY: help setup build data demo view test bench clean
+
+help: ## lists these tasks
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
+
+setup: ## installs the packages that are missing (root or sudo)
+	@tools/install-packages.sh
+
+build: setup ## builds the program: build/terrella
+	@tools/build.sh $(BUILD)
+	@ln -sfn release/apps/cli/terrella $(TERRELLA)
+
+data: build ## fetches Earth's data into the cache and says where it is
+	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
+	@echo "data: $(DATA)/earth; licences: data/LICENCES.md; more: docs/data.md"
+
+demo: build ## three pictures of Earth in demo/, then the viewer where there is a display
+	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
+	@tools/demo.sh $(TERRELLA) $(SIZE) $(VIEWS)
+
+view: build ## opens Earth in the viewer
+	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
+	@$(TERRELLA) view scenes/earth.json
+
+test: build ## every test; the last line counts them
+	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
+	@tools/run-tests.sh $(BUILD)
+
+bench: build ## measures speed and memory, prints a table
+	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
+	@$(TERRELLA) bench
+
+clean: ## removes what was built, not the data
+	rm -rf build demo
