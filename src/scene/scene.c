@@ -52,9 +52,15 @@ static trl_result read_name(const struct scene_node *root, struct trl_scene *sce
 
 static trl_result read_root(const struct scene_node *root, struct trl_scene *scene)
 {
-    const char *const keys[] = {"terrella",   "name",    "star",  "planet",
-                                "atmosphere", "surface", "views", NULL};
+    // Editors find the schema by "$schema"; it says nothing to the reader.
+    const char *const keys[] = {"$schema",    "terrella", "name",  "star", "planet",
+                                "atmosphere", "surface",  "views", NULL};
+    const struct scene_node schema = scene_node_member(root, "$schema");
+    const char *ignored = NULL;
     trl_result result = scene_node_check_keys(root, keys);
+    if (result == TRL_OK && schema.value) {
+        result = scene_node_string(&schema, &ignored);
+    }
     if (result == TRL_OK) {
         result = check_version(root);
     }

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_CAMERA_H
+#define SCENE_CAMERA_H
+// From a view, as people describe it, to a camera in the planet frame, as the passes need it.
+//
+// The local frame of a place is east, north and up, where up leads away from the planet's centre.
+// At a pole the longitude still says where east is, so headings stay defined there.
+
+#include "base/camera.h"
+#include <terrella/scene.h>
+
+// No camera stands nearer to the ground than this, in metres: at the height of grass.
+#define CAMERA_MIN_HEIGHT_M 0.5
+
+// What a view stands on.
+struct camera_place {
+    double radius_m;          // of the reference sphere
+    double ground_altitude_m; // above the sphere, below the camera
+};
+
+// Altitude above the sphere, lifted above the ground.
+double camera_altitude_m(const trl_view *view, const struct camera_place *place);
+
+// The camera of a view whose numbers are in range; `aspect` is width over height.
+struct camera camera_resolve(const trl_view *view, const struct camera_place *place, double aspect);
+
+// The same view given by altitude above the sphere and subsolar point.
+trl_view camera_view_resolve(const trl_view *view, const struct camera_place *place);
+
+#endif // SCENE_CAMERA_H
