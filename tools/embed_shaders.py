@@ -40,6 +40,13 @@ def check_includes(names, texts):
     return problems
 
 
+def check_continuations(names, texts):
+    """Messages, one for each line continued by a backslash: GLSL has that since 4.20 and ES 3.00 only."""
+    return [f"shaders/{name}:{number}: a line cannot be continued with a backslash in GLSL 330"
+            for name in names
+            for number, line in enumerate(texts[name].split("\n"), 1) if line.endswith("\\")]
+
+
 def c_bytes(text):
     """Numbers rather than a literal: C promises no literal above 4095 characters."""
     data = text.encode("utf-8") + b"\0"
@@ -73,7 +80,7 @@ def main():
     args = parser.parse_args()
     names = find_shaders(args.root)
     texts = {name: (args.root / name).read_text(encoding="utf-8") for name in names}
-    problems = check_includes(names, texts)
+    problems = check_includes(names, texts) + check_continuations(names, texts)
     if problems:
         sys.exit("\n".join(problems))
     write_table(args.output, names, texts)

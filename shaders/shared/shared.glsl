@@ -9,7 +9,8 @@
 //
 // Rules: scalars and plain structs only (no vectors, overloads, `out` parameters or array parameters); literals
 // like 1.0; constants by #define; loops with constant bounds; none of the words half, input, output, filter,
-// common, active, this, template, sample; no two underscores in a row. C calculates in double, GLSL in float.
+// common, active, this, template, sample; no two underscores in a row; no macro over several lines. C
+// calculates in double, GLSL in float.
 //
 // Functions that have one name in both: sqrt exp log pow sin cos tan asin acos floor. For the others use
 // the shared_ ones below.
@@ -41,9 +42,9 @@
 #include <math.h>
 
 #define SHARED_FN static inline
-#define SHARED_STRUCT(name)                                                                        \
-    typedef struct name name;                                                                      \
-    struct name
+// clang-format off: GLSL 330 knows no continued lines, not even where it skips them
+#define SHARED_STRUCT(name) typedef struct name name; struct name
+// clang-format on
 typedef double Number;
 typedef double Length;    // m
 typedef double Area;      // m^2

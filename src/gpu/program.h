@@ -5,10 +5,11 @@
 // Programs from the shader files below shaders/, which are part of the library.
 //
 // A shader file has no #version and no precision statement: the builder writes them, and TRL_GLSL
-// (always 1), TRL_ES (1 on ES), then the defines. `#include "lib/x.glsl"` is relative to shaders/;
-// a file that is included twice counts once. With the environment variable TRL_SHADER_DIR files are
-// read from that folder instead. Versions: 330 core or 300 es; with tessellation 400 core or 320
-// es.
+// (always 1), TRL_ES (1 on ES), TRL_CLIP_CONTROL (1 with has_clip_control, else 0; see
+// lib/depth.glsl), then the defines. `#include "lib/x.glsl"` is relative to shaders/; a file that
+// is included twice counts once. Files in the folder that the environment variable TRL_SHADER_DIR
+// names go before the built-in ones of the same name. Versions: 330 core or 300 es; with
+// tessellation 400 core or 320 es.
 //
 // Drivers compile at the first draw and again for each new combination of state and formats (docs
 // of the platform: seconds in software), so keep programs small and their state fixed.

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { MAX_SHADER_BYTES = 1 << 20, MAX_DEPTH = 16, NAME_MAX_BYTES = 256 };
 
@@ -57,7 +58,8 @@ static const char *find_embedded(const char *name)
     return NULL;
 }
 
-// The text of a file; what is to be freed afterwards, if anything, is in *owned.
+// The text of a file; what is to be freed afterwards, if anything, is in *owned. TRL_SHADER_DIR
+// goes before what is embedded, file by file, so that it may hold only what is being worked on.
 static trl_result load_text(const trl_context *ctx, const char *name, const char **text,
                             char **owned)
 {
@@ -71,10 +73,15 @@ static trl_result load_text(const trl_context *ctx, const char *name, const char
     if (!path) {
         return TRL_ERROR_MEMORY;
     }
-    size_t size = 0;
-    const trl_result result = file_read(ctx, path, MAX_SHADER_BYTES, owned, &size);
+    trl_result result = TRL_OK;
+    if (access(path, F_OK) == 0) {
+        size_t size = 0;
+        result = file_read(ctx, path, MAX_SHADER_BYTES, owned, &size);
+        *text = *owned;
+    } else {
+        *text = find_embedded(name);
+    }
     mem_free(ctx, path);
-    *text = *owned;
     return result;
 }
 
