@@ -120,6 +120,7 @@ void raster_grid_range(const struct raster_grid *grid, float *min, float *max)
     const size_t count = (size_t)grid->width * grid->height;
     float low = INFINITY;
     float high = -INFINITY;
+#pragma omp parallel for reduction(min : low) reduction(max : high)
     for (size_t i = 0; i < count; i++) {
         const float v = grid->values[i];
         low = v < low ? v : low; // false for NaN

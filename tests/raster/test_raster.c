@@ -1,0 +1,641 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Rasters from files that the tests make with GDAL: georeference, windows, overviews, missing data,
+// and everything that must be refused with one line.
+#include "raster/gdal.h"
+#include "raster/grid.h"
+
+// cmocka wants these before its own header
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <cpl_string.h>
+#include <gdal.h>
+#include <math.h>
+#include <ogr_srs_api.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double RADIAN = 3.14159265358979323846 / 180;
+
+struct fixture {
+    trl_context *ctx;
+    char folder[64];
+    int errors;      // lines logged as errors
+    char last[2048]; // the latest of them
+};
+
+static void keep_log(void *user, trl_log_level level, trl_log_item item, const char *message)
+{
+    struct fixture *f = user;
+    (void)item;
+    if (level == TRL_LOG_ERROR) {
+        f->errors++;
+        snprintf(f->last, sizeof f->last, "%s", message);
+        assert_null(strchr(message, '\n')); // one line is one line
+    }
+}
+
+static int set_up(void **state)
+{
+    struct fixture *f = calloc(1, sizeof *f);
+    snprintf(f->folder, sizeof f->folder, "/tmp/terrella-raster-XXXXXX");
+    trl_context_desc desc = trl_context_desc_default();
+    desc.log = keep_log;
+    desc.log_user = f;
+    gdal_register();
+    *state = f;
+    return mkdtemp(f->folder) && trl_context_create(&desc, &f->ctx) == TRL_OK ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    struct fixture *f = *state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf '%s'", f->folder);
+    const int status = system(command);
+    trl_context_destroy(&f->ctx);
+    free(f);
+    return status;
+}
+
+// What a test file is. The georeference is left out when the pixel width is 0.
+struct recipe {
+    const char *name;
+    const char *driver; // NULL: GTiff
+    int width, height, bands;
+    GDALDataType type;
+    double transform[6];
+    int epsg; // 0: none
+    bool has_nodata;
+    double nodata;
+    const char *option; // of creation, "NAME=VALUE", or NULL
+    bool has_overviews;
+};
+
+static const struct recipe GLOBE = {.name = "globe.tif",
+                                    .width = 36,
+                                    .height = 18,
+                                    .bands = 1,
+                                    .type = GDT_Int16,
+                                    .transform = {-180, 10, 0, 90, 0, -10},
+                                    .epsg = 4326};
+
+// Value of a pixel: different everywhere, and within 8 bits where that is the type.
+static double value_at(const struct recipe *r, int band, int x, int y)
+{
+    return r->type == GDT_Byte ? (x * 7 + y * 3 + band * 50) % 251 : x * 100 + y + band * 10000;
+}
+
+static const char *make_file(struct fixture *f, const struct recipe *r)
+{
+    static char path[256];
+    snprintf(path, sizeof path, "%s/%s", f->folder, r->name);
+    char **options = r->option ? CSLAddString(NULL, r->option) : NULL;
+    const GDALDriverH driver = GDALGetDriverByName(r->driver ? r->driver : "GTiff");
+    const GDALDatasetH dataset =
+        GDALCreate(driver, path, r->width, r->height, r->bands, r->type, options);
+    CSLDestroy(options);
+    assert_non_null(dataset);
+    if (r->transform[1] != 0) {
+        double transform[6];
+        memcpy(transform, r->transform, sizeof transform);
+        assert_int_equal(GDALSetGeoTransform(dataset, transform), CE_None);
+    }
+    if (r->epsg) {
+        const OGRSpatialReferenceH srs = OSRNewSpatialReference(NULL);
+        assert_int_equal(OSRImportFromEPSG(srs, r->epsg), OGRERR_NONE);
+        assert_int_equal(GDALSetSpatialRef(dataset, srs), CE_None);
+        OSRDestroySpatialReference(srs);
+    }
+    double *row = calloc((size_t)r->width, sizeof *row);
+    for (int band = 0; band < r->bands; band++) {
+        const GDALRasterBandH to = GDALGetRasterBand(dataset, band + 1);
+        if (r->has_nodata) {
+            GDALSetRasterNoDataValue(to, r->nodata);
+        }
+        for (int y = 0; y < r->height; y++) {
+            for (int x = 0; x < r->width; x++) {
+                row[x] = value_at(r, band, x, y);
+            }
+            assert_int_equal(
+                GDALRasterIO(to, GF_Write, 0, y, r->width, 1, row, r->width, 1, GDT_Float64, 0, 0),
+                CE_None);
+        }
+    }
+    free(row);
+    if (r->has_overviews) {
+        int factors[] = {2, 4};
+        assert_int_equal(GDALBuildOverviews(dataset, "AVERAGE", 2, factors, 0, NULL, NULL, NULL),
+                         CE_None);
+    }
+    GDALClose(dataset);
+    return path;
+}
+
+static void open_made(struct fixture *f, const struct recipe *r, struct raster *raster)
+{
+    assert_int_equal(raster_open(f->ctx, make_file(f, r), raster), TRL_OK);
+    assert_int_equal(f->errors, 0);
+}
+
+// Opens what must be refused: the result, one line that names the file and holds `why`, nothing
+// left open.
+static void expect_refused(struct fixture *f, const char *path, trl_result result, const char *why)
+{
+    struct raster raster;
+    f->errors = 0;
+    assert_int_equal(raster_open(f->ctx, path, &raster), result);
+    assert_int_equal(f->errors, 1);
+    assert_non_null(strstr(f->last, path));
+    assert_non_null(strstr(f->last, why));
+    assert_null(raster.dataset);
+    assert_null(raster.path);
+    raster_finish(&raster);
+}
+
+static void facts_of_a_globe_are_read(void **state)
+{
+    struct raster raster;
+    open_made(*state, &GLOBE, &raster);
+    assert_int_equal(raster.width, 36);
+    assert_int_equal(raster.height, 18);
+    assert_int_equal(raster.band_count, 1);
+    assert_int_equal(raster.type, RASTER_INT16);
+    assert_true(raster.west_deg == -180 && raster.east_deg == 180);
+    assert_true(raster.south_deg == -90 && raster.north_deg == 90);
+    assert_true(raster.is_whole_circle);
+    assert_false(raster.has_nodata);
+    raster_finish(&raster);
+}
+
+static void a_globe_without_georeference_is_taken_for_one(void **state)
+{
+    struct recipe r = GLOBE;
+    r.transform[1] = 0;
+    r.epsg = 0;
+    struct raster raster;
+    open_made(*state, &r, &raster);
+    assert_true(raster.west_deg == -180 && raster.pixel_height_deg == 10);
+    assert_true(raster.is_whole_circle);
+    raster_finish(&raster);
+    r.width = 35;
+    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "no georeference");
+}
+
+static void a_left_edge_at_0_east_stays_there(void **state)
+{
+    struct recipe r = GLOBE;
+    r.transform[0] = 0;
+    struct raster raster;
+    open_made(*state, &r, &raster);
+    assert_true(raster.west_deg == 0 && raster.east_deg == 360);
+    raster_finish(&raster);
+    r.transform[0] = 190; // the same place as 170 W
+    r.width = 4;
+    open_made(*state, &r, &raster);
+    assert_true(raster.west_deg == -170 && raster.east_deg == -130);
+    assert_false(raster.is_whole_circle);
+    raster_finish(&raster);
+}
+
+static void wrong_georeferences_are_refused(void **state)
+{
+    struct recipe r = GLOBE;
+    r.transform[2] = 1; // turned
+    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "turned");
+    r = GLOBE;
+    r.transform[3] = -90;
+    r.transform[5] = 10; // south first
+    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "turned");
+    r = GLOBE;
+    r.transform[1] = 11; // 396 degrees round
+    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "outside the globe");
+    r = GLOBE;
+    r.transform[3] = 100; // beyond the pole
+    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "outside the globe");
+    r = GLOBE;
+    r.transform[0] = NAN;
+    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "not finite");
+    r = GLOBE;
+    r.epsg = 32633; // metres of UTM
+    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "projected");
+}
+
+static void files_that_are_no_rasters_are_refused(void **state)
+{
+    struct fixture *f = *state;
+    char path[128];
+    snprintf(path, sizeof path, "%s/none.tif", f->folder);
+    expect_refused(f, path, TRL_ERROR_IO, "No such file");
+    expect_refused(f, f->folder, TRL_ERROR_IO, "not a file");
+    FILE *file = fopen(path, "w");
+    fclose(file);
+    expect_refused(f, path, TRL_ERROR_INVALID, "empty");
+    file = fopen(path, "w");
+    fputs("height,of,land\n1,2,3\n", file);
+    fclose(file);
+    expect_refused(f, path, TRL_ERROR_INVALID, "");
+}
+
+static void nothing_but_local_files_is_opened(void **state)
+{
+    struct fixture *f = *state;
+    expect_refused(f, "/vsicurl/http://example.org/a.tif", TRL_ERROR_INVALID, "local files");
+    expect_refused(f, "https://example.org/a.tif", TRL_ERROR_INVALID, "local files");
+    expect_refused(f, "/vsimem/a.tif", TRL_ERROR_INVALID, "local files");
+    expect_refused(f, "WMS:a", TRL_ERROR_IO, "No such file");
+    // A local file that points elsewhere.
+    char path[128];
+    snprintf(path, sizeof path, "%s/elsewhere.vrt", f->folder);
+    FILE *file = fopen(path, "w");
+    fputs("<VRTDataset rasterXSize=\"4\" rasterYSize=\"2\"><VRTRasterBand dataType=\"Byte\" "
+          "band=\"1\"/></VRTDataset>",
+          file);
+    fclose(file);
+    expect_refused(f, path, TRL_ERROR_INVALID, "");
+}
+
+static void complex_pixels_are_refused(void **state)
+{
+    struct recipe r = GLOBE;
+    r.type = GDT_CFloat32;
+    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "complex");
+}
+
+static void oversized_rasters_are_refused(void **state)
+{
+    // One row, so that the file stays small; sparse, so that no pixel of it is written.
+    struct fixture *f = *state;
+    char path[128];
+    snprintf(path, sizeof path, "%s/wide.tif", f->folder);
+    char **options = CSLAddString(NULL, "SPARSE_OK=TRUE");
+    GDALClose(GDALCreate(GDALGetDriverByName("GTiff"), path, RASTER_MAX_SIDE + 1, 1, 1, GDT_Byte,
+                         options));
+    expect_refused(f, path, TRL_ERROR_INVALID, "pixels");
+    snprintf(path, sizeof path, "%s/deep.tif", f->folder);
+    GDALClose(GDALCreate(GDALGetDriverByName("GTiff"), path, 4, 2, RASTER_MAX_BANDS + 1, GDT_Byte,
+                         options));
+    CSLDestroy(options);
+    expect_refused(f, path, TRL_ERROR_INVALID, "bands");
+}
+
+static void windows_give_their_pixels(void **state)
+{
+    struct fixture *f = *state;
+    struct raster raster;
+    open_made(f, &GLOBE, &raster);
+    const struct raster_window window = {5, 3, 4, 2, 4, 2};
+    float values[8];
+    int16_t integers[8];
+    assert_int_equal(raster_read_float(&raster, &window, 0, values), TRL_OK);
+    assert_int_equal(raster_read_int16(&raster, &window, 0, integers), TRL_OK);
+    for (int i = 0; i < 8; i++) {
+        const double expected = value_at(&GLOBE, 0, 5 + i % 4, 3 + i / 4);
+        assert_true((double)values[i] == expected);
+        assert_true(integers[i] == expected);
+    }
+    raster_finish(&raster);
+}
+
+static void windows_outside_are_refused(void **state)
+{
+    struct fixture *f = *state;
+    struct raster raster;
+    open_made(f, &GLOBE, &raster);
+    const struct raster_window wrong[] = {
+        {36, 0, 1, 1, 1, 1}, {0, 18, 1, 1, 1, 1}, {35, 0, 2, 1, 2, 1},        {0, 0, 0, 1, 1, 1},
+        {0, 0, 4, 4, 0, 4},  {0, 0, 4, 4, 5, 4},  {1, 0, UINT32_MAX, 1, 1, 1}};
+    float values[64];
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        f->errors = 0;
+        assert_int_equal(raster_read_float(&raster, &wrong[i], 0, values), TRL_ERROR_INVALID);
+        assert_int_equal(f->errors, 1);
+    }
+    const struct raster_window right = {0, 0, 1, 1, 1, 1};
+    assert_int_equal(raster_read_float(&raster, &right, 1, values), TRL_ERROR_INVALID);
+    uint8_t pixel[4];
+    assert_int_equal(raster_read_rgba8(&raster, &right, pixel), TRL_ERROR_INVALID); // int16
+    assert_int_equal(raster_read_uint8(&raster, &right, 0, pixel), TRL_ERROR_INVALID);
+    raster_finish(&raster);
+}
+
+// 2 x 2 means of the linear ramp of value_at are exact; the whole read at half size gives them
+// whether the file has overviews or not.
+static void half_size_averages(void **state)
+{
+    struct recipe r = GLOBE;
+    r.type = GDT_Float32;
+    for (int pass = 0; pass < 2; pass++) {
+        r.has_overviews = pass == 1;
+        struct raster raster;
+        open_made(*state, &r, &raster);
+        const struct raster_window window = raster_window_whole(&raster, 18);
+        assert_int_equal(window.out_width, 18);
+        assert_int_equal(window.out_height, 9);
+        float values[18 * 9];
+        assert_int_equal(raster_read_float(&raster, &window, 0, values), TRL_OK);
+        for (int y = 0; y < 9; y++) {
+            for (int x = 0; x < 18; x++) {
+                const double mean = value_at(&r, 0, 2 * x, 2 * y) + 50.5;
+                // floats of that size have steps of 2.4e-4
+                assert_float_equal(values[y * 18 + x], (float)mean, 1e-3f);
+            }
+        }
+        raster_finish(&raster);
+    }
+}
+
+static void missing_data_become_nan(void **state)
+{
+    struct recipe r = GLOBE;
+    r.has_nodata = true;
+    r.nodata = value_at(&r, 0, 7, 4);
+    struct raster raster;
+    open_made(*state, &r, &raster);
+    assert_true(raster.has_nodata && raster.nodata == r.nodata);
+    const struct raster_window window = {6, 4, 3, 1, 3, 1};
+    float values[3];
+    assert_int_equal(raster_read_float(&raster, &window, 0, values), TRL_OK);
+    assert_false(isnan(values[0]) || isnan(values[2]));
+    assert_true(isnan(values[1]));
+    raster_finish(&raster);
+}
+
+static void colours_come_as_rgba(void **state)
+{
+    struct recipe r = GLOBE;
+    r.type = GDT_Byte;
+    for (int bands = 1; bands <= 4; bands++) {
+        r.bands = bands;
+        struct raster raster;
+        open_made(*state, &r, &raster);
+        const struct raster_window window = {2, 1, 2, 2, 2, 2};
+        uint8_t pixels[16];
+        assert_int_equal(raster_read_rgba8(&raster, &window, pixels), TRL_OK);
+        for (int i = 0; i < 16; i++) {
+            const int channel = i % 4;
+            const bool is_alpha = channel == 3;
+            const int band = is_alpha ? bands - 1 : bands < 3 ? 0 : channel;
+            const double expected =
+                is_alpha && bands % 2 == 1 ? 255 : value_at(&r, band, 2 + i / 4 % 2, 1 + i / 8);
+            assert_int_equal(pixels[i], (int)expected);
+        }
+        raster_finish(&raster);
+    }
+}
+
+// Every file cut short at any length must give an error when opened or read, never a crash, and
+// never pixels that are not in it.
+static void check_truncated(struct fixture *f, const char *data, size_t size,
+                            const struct recipe *r)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/cut", f->folder);
+    FILE *file = fopen(path, "wb");
+    assert_int_equal(fwrite(data, 1, size, file), size);
+    fclose(file);
+    struct raster raster;
+    f->errors = 0;
+    if (raster_open(f->ctx, path, &raster) != TRL_OK) {
+        assert_int_equal(f->errors, 1);
+        return;
+    }
+    const struct raster_window window = raster_window_whole(&raster, 0);
+    float *values = calloc((size_t)window.out_width * window.out_height, sizeof *values);
+    const trl_result result = raster_read_float(&raster, &window, 0, values);
+    if (result == TRL_OK) {
+        // Only what lies behind the pixels (tags, padding) may be missing.
+        for (uint32_t i = 0; i < raster.width * raster.height; i++) {
+            const int x = (int)(i % raster.width);
+            const int y = (int)(i / raster.width);
+            assert_true((double)values[i] == value_at(r, 0, x, y));
+        }
+    } else {
+        assert_int_equal(f->errors, 1);
+    }
+    free(values);
+    raster_finish(&raster);
+}
+
+static void truncated_files_are_errors(void **state)
+{
+    struct fixture *f = *state;
+    struct recipe recipes[] = {GLOBE, GLOBE, GLOBE};
+    recipes[1].option = "COMPRESS=DEFLATE";
+    recipes[2].option = "TILED=YES";
+    for (size_t i = 0; i < sizeof recipes / sizeof recipes[0]; i++) {
+        FILE *file = fopen(make_file(f, &recipes[i]), "rb");
+        static char data[1 << 18];
+        const size_t size = fread(data, 1, sizeof data, file);
+        fclose(file);
+        assert_true(size > 200 && size < sizeof data);
+        // Every length of the header, then in strides that are prime to any structure.
+        for (size_t length = 1; length < size; length += length < 400 ? 1 : 97) {
+            check_truncated(f, data, length, &recipes[i]);
+        }
+    }
+}
+
+// Bytes changed at random (a fixed sequence) must not crash it; what it reads may be wrong.
+static void damaged_files_do_not_crash(void **state)
+{
+    struct fixture *f = *state;
+    struct recipe r = GLOBE;
+    r.option = "COMPRESS=DEFLATE";
+    FILE *file = fopen(make_file(f, &r), "rb");
+    static char data[1 << 16];
+    const size_t size = fread(data, 1, sizeof data, file);
+    fclose(file);
+    char path[128];
+    snprintf(path, sizeof path, "%s/damaged", f->folder);
+    uint32_t seed = 1;
+    for (int round = 0; round < 500; round++) {
+        char copy[sizeof data];
+        memcpy(copy, data, size);
+        for (int k = 0; k < 4; k++) {
+            seed = seed * 1664525u + 1013904223u;
+            copy[(seed >> 8) % size] = (char)(seed >> 24);
+        }
+        file = fopen(path, "wb");
+        fwrite(copy, 1, size, file);
+        fclose(file);
+        struct raster raster;
+        if (raster_open(f->ctx, path, &raster) == TRL_OK) {
+            const struct raster_window window = raster_window_whole(&raster, 64);
+            float values[64 * 64];
+            assert_true(window.out_width <= 64 && window.out_height <= 64);
+            const trl_result result = raster_read_float(&raster, &window, 0, values);
+            assert_true(result == TRL_OK || result == TRL_ERROR_IO);
+            raster_finish(&raster);
+        }
+    }
+}
+
+static void load_grid(struct fixture *f, const struct recipe *r, struct raster_grid *grid)
+{
+    struct raster raster;
+    open_made(f, r, &raster);
+    assert_int_equal(raster_grid_load(&raster, 0, grid), TRL_OK);
+    raster_finish(&raster);
+}
+
+static void expect_sample(const struct raster_grid *grid, double lat_deg, double lon_deg,
+                          double value)
+{
+    const struct raster_sample s = raster_grid_sample(grid, lat_deg * RADIAN, lon_deg * RADIAN);
+    assert_true(s.is_valid);
+    // radians and back cost a few units in the last place of coordinates up to 720 degrees
+    assert_true(fabs(s.value - value) < 1e-9);
+}
+
+static void samples_are_bilinear_between_centres(void **state)
+{
+    struct raster_grid grid;
+    load_grid(*state, &GLOBE, &grid);
+    expect_sample(&grid, 85, -175, value_at(&GLOBE, 0, 0, 0));
+    expect_sample(&grid, 85, -170, 50);
+    expect_sample(&grid, 80, -175, 0.5);
+    expect_sample(&grid, 45, 5, value_at(&GLOBE, 0, 18, 4));
+    expect_sample(&grid, 45, 5 + 720, value_at(&GLOBE, 0, 18, 4));
+    const struct raster_sample s = raster_grid_sample(&grid, 41 * RADIAN, 8 * RADIAN);
+    // 100 a column and 1 a row of 10 degrees
+    assert_true(fabs(s.per_longitude_rad - 100 / (10 * RADIAN)) < 1e-9);
+    assert_true(fabs(s.per_latitude_rad + 1 / (10 * RADIAN)) < 1e-9);
+    raster_grid_finish(&grid);
+}
+
+static void the_antimeridian_joins(void **state)
+{
+    struct raster_grid grid;
+    load_grid(*state, &GLOBE, &grid);
+    const double middle = (value_at(&GLOBE, 0, 0, 8) + value_at(&GLOBE, 0, 35, 8)) / 2;
+    expect_sample(&grid, 5, 180, middle);
+    expect_sample(&grid, 5, -180, middle);
+    expect_sample(&grid, 5, 177.5, 0.75 * 3508 + 0.25 * 8);
+    raster_grid_finish(&grid);
+}
+
+// At the pole every longitude must give one value per meridian plane: the mean of the two columns
+// that face each other there.
+static void poles_join_opposite_meridians(void **state)
+{
+    struct raster_grid grid;
+    load_grid(*state, &GLOBE, &grid);
+    for (int column = 0; column < 18; column++) {
+        const double lon = -175 + 10.0 * column;
+        const double north =
+            (value_at(&GLOBE, 0, column, 0) + value_at(&GLOBE, 0, column + 18, 0)) / 2;
+        expect_sample(&grid, 90, lon, north);
+        expect_sample(&grid, 90, lon + 180, north);
+        expect_sample(&grid, -90, lon, north + 17);
+    }
+    raster_grid_finish(&grid);
+}
+
+static void outside_an_inset_there_is_nothing(void **state)
+{
+    struct recipe r = GLOBE;
+    r.width = 4;
+    r.height = 2;
+    r.transform[0] = 170; // across the antimeridian, to 150 W
+    r.transform[3] = 50;
+    struct raster_grid grid;
+    load_grid(*state, &r, &grid);
+    expect_sample(&grid, 45, 175, 0);
+    expect_sample(&grid, 45, -155, 300);
+    expect_sample(&grid, 50, 170, 0); // the border belongs to it, and holds its value
+    assert_false(raster_grid_sample(&grid, 45 * RADIAN, 169 * RADIAN).is_valid);
+    assert_false(raster_grid_sample(&grid, 45 * RADIAN, -149 * RADIAN).is_valid);
+    assert_false(raster_grid_sample(&grid, 51 * RADIAN, 175 * RADIAN).is_valid);
+    assert_false(raster_grid_sample(&grid, 29 * RADIAN, 175 * RADIAN).is_valid);
+    assert_false(raster_grid_sample(&grid, NAN, 175 * RADIAN).is_valid);
+    raster_grid_finish(&grid);
+}
+
+static void holes_take_their_neighbours_mean(void **state)
+{
+    struct recipe r = GLOBE;
+    r.has_nodata = true;
+    r.nodata = value_at(&r, 0, 7, 4);
+    struct raster_grid grid;
+    load_grid(*state, &r, &grid);
+    // Between the hole's centre and its north-west neighbours: the mean of the three that are
+    // there.
+    expect_sample(&grid, 50, -110, (603 + 703 + 604) / 4.0 + (603 + 703 + 604) / 12.0);
+    float min;
+    float max;
+    raster_grid_range(&grid, &min, &max);
+    assert_true(min == 0 && max == 3517);
+    raster_grid_finish(&grid);
+}
+
+static void *allocate_counted(void *user, size_t bytes)
+{
+    int *left = user;
+    return (*left)-- > 0 ? malloc(bytes) : NULL;
+}
+
+static void *reallocate_plain(void *user, void *block, size_t bytes)
+{
+    (void)user;
+    return realloc(block, bytes);
+}
+
+static void release_plain(void *user, void *block)
+{
+    (void)user;
+    free(block);
+}
+
+static void no_memory_for_a_grid_is_told(void **state)
+{
+    struct fixture *f = *state;
+    int left = 100;
+    trl_context_desc desc = trl_context_desc_default();
+    desc.allocator = (trl_allocator){allocate_counted, reallocate_plain, release_plain, &left};
+    trl_context *ctx = NULL;
+    assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
+    struct raster raster;
+    assert_int_equal(raster_open(ctx, make_file(f, &GLOBE), &raster), TRL_OK);
+    left = 0; // the next one fails
+    struct raster_grid grid;
+    assert_int_equal(raster_grid_load(&raster, 0, &grid), TRL_ERROR_MEMORY);
+    assert_null(grid.values);
+    raster_finish(&raster);
+    trl_context_destroy(&ctx);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(facts_of_a_globe_are_read),
+        TEST(a_globe_without_georeference_is_taken_for_one),
+        TEST(a_left_edge_at_0_east_stays_there),
+        TEST(wrong_georeferences_are_refused),
+        TEST(files_that_are_no_rasters_are_refused),
+        TEST(nothing_but_local_files_is_opened),
+        TEST(complex_pixels_are_refused),
+        TEST(oversized_rasters_are_refused),
+        TEST(windows_give_their_pixels),
+        TEST(windows_outside_are_refused),
+        TEST(half_size_averages),
+        TEST(missing_data_become_nan),
+        TEST(colours_come_as_rgba),
+        TEST(truncated_files_are_errors),
+        TEST(damaged_files_do_not_crash),
+        TEST(samples_are_bilinear_between_centres),
+        TEST(the_antimeridian_joins),
+        TEST(poles_join_opposite_meridians),
+        TEST(outside_an_inset_there_is_nothing),
+        TEST(holes_take_their_neighbours_mean),
+        TEST(no_memory_for_a_grid_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
