@@ -3,11 +3,12 @@
 //
 // A path starts at the eye. Every ray of it either collides with the air or hits the ground: the
 // ray never leaves, its weight is multiplied with the chance that it would not have. Where it
-// collides is drawn from a mixture of two densities over the pieces of the ray: by what the air
-// scatters (always right), and by that times the sunlight which is there (right in twilight). The
-// weight is the true density over the drawn one, so any mixture gives the same expectation. Each
-// event adds the sunlight that it turns into the path; then the path goes on in a direction drawn
-// from the phase function or from Lambert's cosine.
+// collides is drawn from a mixture of densities over the pieces of the ray: by what the air
+// scatters (right by day), by that times the sunlight which is there, and by height (right in
+// twilight). The weight is the true density over the drawn one, so any mixture gives the same
+// expectation. Each event adds the sunlight that it turns into the path; then the path goes on in
+// a direction drawn from the phase function or from Lambert's cosine, in twilight mixed with the
+// part of the sky that glows, with weights again.
 #include "reference/path_tracer.h"
 
 #include <math.h>
@@ -33,9 +34,15 @@ static const double long_path_survival = 0.99;
 // Share of collisions drawn as if the air scattered although it only absorbs: covers shells whose
 // middle stands badly for the rest.
 static const double floor_share = 0.01;
-// Sunlit scattering, relative to all of it along the ray, from which half of the collisions go to
-// it.
-static const double sunlit_knee = 1e-4;
+// Share of collisions drawn by sunlight, and the sunlit part of a ray's scattering at which it is
+// halved.
+static const double sunlit_share = 0.5, sunlit_knee = 1e-6;
+
+// The glow of twilight as a lobe: Henyey-Greenstein about the horizontal toward the sun, tilted up;
+// its share of the directions grows as the sun goes down from one cosine of its zenith angle by a
+// range of them.
+static const double glow_g = 0.75, glow_height = 0.1;
+static const double glow_share = 0.5, glow_begin_mu = 0.03, glow_range_mu = 0.08;
 
 struct tracer {
     const struct medium *medium;
@@ -45,11 +52,16 @@ struct tracer {
     int max_order;
 };
 
-// What one thread works with: the pieces of a ray and the two densities over them.
+// By what a piece of the ray is drawn: the scattering in it; that times the sunlight there; and in
+// twilight the root of the first, for the thin air high up that sees more of the glow than its
+// share.
+enum density { BY_SCATTERING, BY_SUNLIGHT, BY_HEIGHT, DENSITY_COUNT };
+
+// What one thread works with: the pieces of a ray and the densities over them.
 struct scratch {
     struct reference_piece *pieces;
     double *transmittance; // to the piece's begin
-    double *scattered, *sunlit;
+    double *density[DENSITY_COUNT];
 };
 
 struct path {
@@ -97,74 +109,125 @@ static double scattering_at(const struct tracer *tracer, double altitude_m, doub
     return sum;
 }
 
+// Where the sky is bright after sunset: a lobe toward the sun's side, a little above the
+// horizontal. Its share is none by day.
+struct glow {
+    struct vec3 axis;
+    double share;
+};
+
+static struct glow find_glow(struct vec3 sun, struct vec3 up)
+{
+    const double mu_sun = vec3_dot(sun, up);
+    const struct vec3 level = vec3_normalize(vec3_sub(sun, vec3_scale(up, mu_sun)));
+    return (struct glow){.axis = vec3_normalize(vec3_add(level, vec3_scale(up, glow_height))),
+                         .share = glow_share *
+                                  fmin(fmax((glow_begin_mu - mu_sun) / glow_range_mu, 0), 1)};
+}
+
 // --- Where a ray ends ---
+
+// How far toward the sun from the planet's centre a ray begins, and how fast it goes there.
+struct sunward {
+    double begin_m, slope;
+};
 
 struct ray_sums {
     size_t count;
     double ground_transmittance; // 0 if the ray leaves
-    double scattered, sunlit;
+    double density[DENSITY_COUNT];
 };
 
-// The chance, about, of a scattering in each piece, and that times the sunlight in the piece's
-// middle.
+// Sunlight, about, where the ray is at `s_m`.
+static double guess_light(const struct tracer *tracer, const struct reference_ray *ray,
+                          const struct sunward *sunward, double s_m)
+{
+    const double radius = sqrt(ray->perigee2_m2 + s_m * s_m);
+    const double toward_sun = sunward->begin_m + sunward->slope * (s_m - ray->begin_m);
+    return sun_guide_at(&tracer->guide, radius - tracer->medium->ground_radius_m,
+                        toward_sun / radius);
+}
+
+// The chance, about, of a scattering in each piece, and that times the sunlight in it.
 static struct ray_sums weigh_pieces(const struct tracer *tracer, const struct reference_ray *ray,
-                                    struct vec3 sun, const struct path *path,
-                                    struct scratch *scratch)
+                                    const struct sunward *sunward, struct scratch *scratch)
 {
     struct ray_sums sums = {.count = reference_air_pieces(&tracer->air, ray, scratch->pieces)};
-    double transmittance = 1;
+    double transmittance = 1, light = guess_light(tracer, ray, sunward, ray->begin_m);
     for (size_t i = 0; i < sums.count; ++i) {
         const struct reference_piece *piece = &scratch->pieces[i];
-        const double s_m = 0.5 * (piece->begin_m + piece->end_m);
-        const double radius = sqrt(ray->perigee2_m2 + s_m * s_m);
-        const struct vec3 at =
-            vec3_add(path->position, vec3_scale(path->direction, s_m - ray->begin_m));
-        const double light = sun_guide_at(&tracer->guide, radius - tracer->medium->ground_radius_m,
-                                          vec3_dot(at, sun) / radius);
+        const double next_light = guess_light(tracer, ray, sunward, piece->end_m);
         const double share = tracer->air.scattering_share[piece->shell] + floor_share;
+        const double scattered = transmittance * -expm1(-piece->optical_depth) * share;
         scratch->transmittance[i] = transmittance;
-        scratch->scattered[i] = transmittance * -expm1(-piece->optical_depth) * share;
-        scratch->sunlit[i] = scratch->scattered[i] * light;
-        sums.scattered += scratch->scattered[i];
-        sums.sunlit += scratch->sunlit[i];
+        scratch->density[BY_SCATTERING][i] = scattered;
+        scratch->density[BY_SUNLIGHT][i] = scattered * 0.5 * (light + next_light);
+        scratch->density[BY_HEIGHT][i] = sqrt(scattered);
+        for (int k = 0; k < DENSITY_COUNT; ++k) {
+            sums.density[k] += scratch->density[k][i];
+        }
         transmittance *= exp(-piece->optical_depth);
+        light = next_light;
     }
     sums.ground_transmittance = ray->hits_ground ? transmittance : 0;
     return sums;
 }
 
-// Draws a piece; `probability` is that of the mixture.
-static size_t draw_piece(const struct ray_sums *sums, const struct scratch *scratch,
-                         struct path *path, double *probability)
+struct mixture {
+    double share[DENSITY_COUNT]; // their sum is 1
+};
+
+// `glow_part` is above 0 in twilight only.
+static struct mixture mix_densities(const struct ray_sums *sums, double glow_part)
 {
-    const double sunlit_share = 0.5 * sums->sunlit / (sums->sunlit + sunlit_knee * sums->scattered);
-    const bool is_sunlit = next(path) < sunlit_share;
-    const double *density = is_sunlit ? scratch->sunlit : scratch->scattered;
-    double left = next(path) * (is_sunlit ? sums->sunlit : sums->scattered);
-    size_t piece = 0, last = 0;
-    for (; piece < sums->count; ++piece) {
-        if (density[piece] > 0) {
-            last = piece; // where rounding may leave us
-            left -= density[piece];
-            if (left < 0) {
-                break;
-            }
+    const double knee = sunlit_knee * sums->density[BY_SCATTERING];
+    const double sunlit =
+        sunlit_share * sums->density[BY_SUNLIGHT] / (sums->density[BY_SUNLIGHT] + knee);
+    const double high = (1 - sunlit) * glow_part;
+    return (struct mixture){
+        {[BY_SCATTERING] = 1 - sunlit - high, [BY_SUNLIGHT] = sunlit, [BY_HEIGHT] = high}};
+}
+
+static enum density draw_density(const struct mixture *mixture, struct path *path)
+{
+    const double u = next(path);
+    if (u < mixture->share[BY_SUNLIGHT]) {
+        return BY_SUNLIGHT;
+    }
+    return u < mixture->share[BY_SUNLIGHT] + mixture->share[BY_HEIGHT] ? BY_HEIGHT : BY_SCATTERING;
+}
+
+// Draws a piece; `probability` is that of the mixture.
+static size_t draw_piece(const struct ray_sums *sums, const struct mixture *mixture,
+                         const struct scratch *scratch, struct path *path, double *probability)
+{
+    const enum density drawn = draw_density(mixture, path);
+    const double *density = scratch->density[drawn];
+    double left = next(path) * sums->density[drawn];
+    size_t piece = 0; // the last one that is possible, if rounding leaves something
+    for (size_t i = 0; i < sums->count && left >= 0; ++i) {
+        if (density[i] > 0) {
+            piece = i;
+            left -= density[i];
         }
     }
-    *probability = (1 - sunlit_share) * scratch->scattered[last] / sums->scattered;
-    if (sunlit_share > 0) {
-        *probability += sunlit_share * scratch->sunlit[last] / sums->sunlit;
+    *probability = 0;
+    for (int k = 0; k < DENSITY_COUNT; ++k) {
+        if (mixture->share[k] > 0) {
+            *probability += mixture->share[k] * scratch->density[k][piece] / sums->density[k];
+        }
     }
-    return last;
+    return piece;
 }
 
 // Moves the path to a collision; its weight gets scattering and transmittance over the drawn
 // density.
 static void collide(const struct tracer *tracer, const struct reference_ray *ray,
-                    const struct ray_sums *sums, struct scratch *scratch, struct path *path)
+                    const struct ray_sums *sums, const struct mixture *mixture,
+                    struct scratch *scratch, struct path *path)
 {
     double probability;
-    const size_t i = draw_piece(sums, scratch, path, &probability);
+    const size_t i = draw_piece(sums, mixture, scratch, path, &probability);
     const struct reference_piece *piece = &scratch->pieces[i];
     const double length = piece->end_m - piece->begin_m, depth = piece->optical_depth;
 
@@ -207,9 +270,11 @@ static bool advance(const struct tracer *tracer, struct vec3 sun, struct scratch
     const double mu = vec3_dot(path->position, path->direction) / length;
     const struct reference_ray ray =
         reference_air_ray(&tracer->air, clamp_radius(tracer, length), mu);
-    const struct ray_sums sums = weigh_pieces(tracer, &ray, sun, path, scratch);
+    const struct sunward sunward = {.begin_m = vec3_dot(path->position, sun),
+                                    .slope = vec3_dot(path->direction, sun)};
+    const struct ray_sums sums = weigh_pieces(tracer, &ray, &sunward, scratch);
     const double reflected = sums.ground_transmittance * tracer->air.ground_albedo;
-    const double all = sums.scattered + reflected;
+    const double all = sums.density[BY_SCATTERING] + reflected;
     if (!(all > 0)) {
         return false;
     }
@@ -217,8 +282,10 @@ static bool advance(const struct tracer *tracer, struct vec3 sun, struct scratch
         path->weight *= all; // reflected, over its probability
         hit_ground(tracer, &ray, path);
     } else {
-        path->weight *= all / sums.scattered;
-        collide(tracer, &ray, &sums, scratch, path);
+        path->weight *= all / sums.density[BY_SCATTERING];
+        const double glow_part = find_glow(sun, vec3_scale(path->position, 1 / length)).share;
+        const struct mixture mixture = mix_densities(&sums, glow_part);
+        collide(tracer, &ray, &sums, &mixture, scratch, path);
     }
     return path->weight > 0;
 }
@@ -289,19 +356,57 @@ static size_t draw_constituent(const struct tracer *tracer, struct path *path)
     return chosen;
 }
 
-static void redirect(const struct tracer *tracer, struct path *path)
+// Replaces the direction by one in the glow, for a share of the paths.
+static void draw_glow(const struct glow *glow, struct path *path)
 {
-    if (path->is_on_ground) {
-        const struct vec3 up = vec3_normalize(path->position);
-        const double cosine = sqrt(next(path));
-        path->direction = turn_from(up, cosine, 2 * pi * next(path));
-        return;
+    if (glow->share > 0 && next(path) < glow->share) {
+        const double cosine = phase_draw_henyey_greenstein(glow_g, &path->random);
+        path->direction = turn_from(glow->axis, cosine, 2 * pi * next(path));
     }
+}
+
+static double glow_density(const struct glow *glow, struct vec3 direction)
+{
+    const struct phase lobe = {.kind = PHASE_HENYEY_GREENSTEIN, .g = glow_g};
+    return phase_value(&lobe, vec3_dot(glow->axis, direction));
+}
+
+static void reflect(const struct glow *glow, struct vec3 up, struct path *path)
+{
+    const double cosine = sqrt(next(path));
+    path->direction = turn_from(up, cosine, 2 * pi * next(path));
+    if (glow->share > 0) {
+        draw_glow(glow, path);
+        const double wanted = fmax(0, vec3_dot(up, path->direction)) / pi;
+        path->weight *= wanted / ((1 - glow->share) * wanted +
+                                  glow->share * glow_density(glow, path->direction));
+    }
+}
+
+static void scatter(const struct tracer *tracer, const struct glow *glow, struct path *path)
+{
     const struct phase_sampler *sampler = &tracer->samplers[draw_constituent(tracer, path)];
-    double weight;
-    const double cosine = phase_sampler_draw(sampler, &path->random, &weight);
-    path->direction = turn_from(path->direction, cosine, 2 * pi * next(path));
-    path->weight *= weight;
+    const struct vec3 before = path->direction;
+    const double cosine = phase_sampler_draw(sampler, &path->random);
+    path->direction = turn_from(before, cosine, 2 * pi * next(path));
+    draw_glow(glow, path);
+    const double drawn = vec3_dot(before, path->direction);
+    double density = (1 - glow->share) * phase_sampler_density(sampler, drawn);
+    if (glow->share > 0) {
+        density += glow->share * glow_density(glow, path->direction);
+    }
+    path->weight *= phase_value(sampler->phase, drawn) / density;
+}
+
+static void redirect(const struct tracer *tracer, struct vec3 sun, struct path *path)
+{
+    const struct vec3 up = vec3_normalize(path->position);
+    const struct glow glow = find_glow(sun, up);
+    if (path->is_on_ground) {
+        reflect(&glow, up, path);
+    } else {
+        scatter(tracer, &glow, path);
+    }
 }
 
 static bool survives(struct path *path, int order)
@@ -321,7 +426,7 @@ static double trace_path(const struct tracer *tracer, struct vec3 sun, struct sc
         if (order == tracer->max_order || !survives(path, order)) {
             break;
         }
-        redirect(tracer, path);
+        redirect(tracer, sun, path);
     }
     return radiance;
 }
@@ -426,13 +531,14 @@ static trl_result scratches_init(const trl_context *ctx, size_t max_pieces,
     for (size_t i = 0; i < count; ++i) {
         struct scratch *scratch = &scratches->of[i];
         scratch->pieces = mem_alloc(ctx, max_pieces, sizeof(struct reference_piece));
-        scratch->transmittance = mem_alloc(ctx, max_pieces, 3 * sizeof(double));
+        scratch->transmittance = mem_alloc(ctx, max_pieces, (1 + DENSITY_COUNT) * sizeof(double));
         if (!scratch->pieces || !scratch->transmittance) {
             scratches_finish(ctx, scratches);
             return TRL_ERROR_MEMORY;
         }
-        scratch->scattered = scratch->transmittance + max_pieces;
-        scratch->sunlit = scratch->scattered + max_pieces;
+        for (size_t k = 0; k < DENSITY_COUNT; ++k) {
+            scratch->density[k] = scratch->transmittance + (1 + k) * max_pieces;
+        }
     }
     return TRL_OK;
 }

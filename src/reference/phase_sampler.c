@@ -90,7 +90,7 @@ static double draw_rayleigh(struct random_stream *random)
     return cbrt(root + q) - cbrt(root - q);
 }
 
-static double draw_henyey_greenstein(double g, struct random_stream *random)
+double phase_draw_henyey_greenstein(double g, struct random_stream *random)
 {
     const double x = 2 * random_next(random) - 1;
     if (fabs(g) < 1e-4) {
@@ -104,48 +104,59 @@ static double draw_henyey_greenstein(double g, struct random_stream *random)
 static double draw_cornette_shanks(double g, struct random_stream *random)
 {
     for (;;) {
-        const double cosine = draw_henyey_greenstein(g, random);
+        const double cosine = phase_draw_henyey_greenstein(g, random);
         if (2 * random_next(random) <= 1 + cosine * cosine) {
             return cosine;
         }
     }
 }
 
-static double draw_table(const struct phase_sampler *sampler, struct random_stream *random,
-                         double *weight)
+// The last bin whose bound passes: `rises` to `at` for cumulative, falls to it for cosine.
+static size_t find_bin(const struct phase_sampler *sampler, const double *bounds, double at)
 {
-    const double u = random_next(random);
+    const double sign = bounds == sampler->cosine ? -1 : 1;
     size_t low = 0, high = sampler->bin_count;
     while (high - low > 1) {
         const size_t middle = (low + high) / 2;
-        if (sampler->cumulative[middle] <= u) {
+        if (sign * bounds[middle] <= sign * at) {
             low = middle;
         } else {
             high = middle;
         }
     }
-    const double width = sampler->cosine[low] - sampler->cosine[low + 1];
-    const double probability = sampler->cumulative[low + 1] - sampler->cumulative[low];
-    const double cosine = sampler->cosine[low] - width * random_next(random);
-    *weight = phase_value(sampler->phase, cosine) * 2 * pi * width / probability;
-    return cosine;
+    return low;
 }
 
-double phase_sampler_draw(const struct phase_sampler *sampler, struct random_stream *random,
-                          double *weight)
+static double draw_table(const struct phase_sampler *sampler, struct random_stream *random)
 {
-    *weight = 1;
+    const size_t bin = find_bin(sampler, sampler->cumulative, random_next(random));
+    const double width = sampler->cosine[bin] - sampler->cosine[bin + 1];
+    return sampler->cosine[bin] - width * random_next(random);
+}
+
+double phase_sampler_draw(const struct phase_sampler *sampler, struct random_stream *random)
+{
     switch (sampler->phase->kind) {
     case PHASE_ISOTROPIC:
         break;
     case PHASE_RAYLEIGH:
         return draw_rayleigh(random);
     case PHASE_HENYEY_GREENSTEIN:
-        return draw_henyey_greenstein(sampler->phase->g, random);
+        return phase_draw_henyey_greenstein(sampler->phase->g, random);
     case PHASE_CORNETTE_SHANKS:
         return draw_cornette_shanks(sampler->phase->g, random);
     case PHASE_TABLE:
-        return draw_table(sampler, random, weight);
+        return draw_table(sampler, random);
     }
     return 2 * random_next(random) - 1;
+}
+
+double phase_sampler_density(const struct phase_sampler *sampler, double cosine)
+{
+    if (sampler->phase->kind != PHASE_TABLE) {
+        return phase_value(sampler->phase, cosine);
+    }
+    const size_t bin = find_bin(sampler, sampler->cosine, cosine);
+    const double width = sampler->cosine[bin] - sampler->cosine[bin + 1];
+    return (sampler->cumulative[bin + 1] - sampler->cumulative[bin]) / (2 * pi * width);
 }

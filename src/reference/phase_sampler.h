@@ -18,9 +18,13 @@ TRL_MUST_USE trl_result phase_sampler_init(const trl_context *ctx, const struct 
                                            struct phase_sampler *sampler);
 void phase_sampler_finish(const trl_context *ctx, struct phase_sampler *sampler);
 
-// Returns the cosine of a scattering angle; `weight` is the phase function over the density with
-// which this direction was drawn, near 1.
-double phase_sampler_draw(const struct phase_sampler *sampler, struct random_stream *random,
-                          double *weight);
+// Returns the cosine of a scattering angle.
+double phase_sampler_draw(const struct phase_sampler *sampler, struct random_stream *random);
+// The density in sr^-1 with which directions at this cosine are drawn: the phase function itself,
+// but for tables, where it is about that.
+double phase_sampler_density(const struct phase_sampler *sampler, double cosine);
+
+// An angle drawn from Henyey and Greenstein's function.
+double phase_draw_henyey_greenstein(double g, struct random_stream *random);
 
 #endif // REFERENCE_PHASE_SAMPLER_H

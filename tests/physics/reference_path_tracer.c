@@ -192,7 +192,7 @@ static void first_order_agrees_with_brute_quadrature(void **state)
         make_query(0, 95, 60, 0),     make_query(0, 96, 85, 0),     make_query(12e3, 60, 95, 90),
         make_query(30e3, 80, 150, 0), make_query(59e3, 40, 120, 0), make_query(20e3, 100, 88, 10)};
     enum { COUNT = sizeof(queries) / sizeof(queries[0]) };
-    const struct reference_desc desc = {.paths = 40000, .seed = 11, .max_order = 1};
+    const struct reference_desc desc = {.paths = 20000, .seed = 11, .max_order = 1};
     double radiance[COUNT], error[COUNT];
     assert_int_equal(
         reference_sky_radiance(*state, &medium, queries, COUNT, &desc, radiance, error), TRL_OK);
@@ -213,7 +213,7 @@ static void thin_air_scatters_once(void **state)
     }
     const struct reference_query queries[] = {make_query(0, 20, 40, 50), make_query(0, 70, 10, 0),
                                               make_query(5e3, 60, 89, 180)};
-    const struct reference_desc desc = {.paths = 40000, .seed = 12};
+    const struct reference_desc desc = {.paths = 20000, .seed = 12};
     double radiance[3], error[3];
     assert_int_equal(reference_sky_radiance(*state, &medium, queries, 3, &desc, radiance, error),
                      TRL_OK);
@@ -244,7 +244,7 @@ static void white_furnace_shows_nothing(void **state)
                 make_query(altitudes[v], 0, zeniths[v], (i % SECTORS + 0.5) * 360 / SECTORS);
             queries[i].sun_zenith_rad = acos(mu_sun);
         }
-        const struct reference_desc desc = {.paths = 64, .seed = 21 + (uint64_t)v};
+        const struct reference_desc desc = {.paths = 24, .seed = 21 + (uint64_t)v};
         assert_int_equal(
             reference_sky_radiance(*state, &medium, queries, SUNS, &desc, radiance, error), TRL_OK);
         double sum = 0, variance = 0;
@@ -297,7 +297,7 @@ static void deep_layer_reflects_as_chandrasekhar_says(void **state)
     medium.top_radius_m = 1e9 + 1e3;
     const struct reference_query queries[] = {
         make_query(1e3, 30, 180, 0), make_query(1e3, 30, 120, 0), make_query(1e3, 75, 110, 180)};
-    const struct reference_desc desc = {.paths = 40000, .seed = 31};
+    const struct reference_desc desc = {.paths = 4000, .seed = 31};
     double radiance[3], error[3];
     assert_int_equal(reference_sky_radiance(*state, &medium, queries, 3, &desc, radiance, error),
                      TRL_OK);
@@ -305,7 +305,7 @@ static void deep_layer_reflects_as_chandrasekhar_says(void **state)
         const double mu = -cos(queries[i].view_zenith_rad), mu_sun = cos(queries[i].sun_zenith_rad);
         const double expected = single_albedo / (4 * pi) * mu_sun / (mu_sun + mu) *
                                 solve_h(single_albedo, mu) * solve_h(single_albedo, mu_sun);
-        check_z("deep layer", radiance[i], error[i], expected, 0.01);
+        check_z("deep layer", radiance[i], error[i], expected, 0.015);
     }
 }
 
@@ -360,7 +360,7 @@ static double mean_outgoing(const trl_context *ctx, const struct medium *medium,
         queries[i].sun_zenith_rad = acos(1 - 2 * even_point(i, 1, shift[1]));
         queries[i].view_zenith_rad = pi - acos(sqrt(even_point(i, 2, shift[2])));
     }
-    const struct reference_desc desc = {.paths = 16, .seed = seed};
+    const struct reference_desc desc = {.paths = 6, .seed = seed};
     assert_int_equal(reference_sky_radiance(ctx, medium, queries, COUNT, &desc, radiance, error),
                      TRL_OK);
     for (int i = 0; i < COUNT; ++i) {
@@ -390,7 +390,7 @@ static void energy_in_comes_out(void **state)
     const double b = 2 * scattering, longest = sqrt(top * top - ground * ground);
     const double grazing = (1 - (1 + b * longest) * exp(-b * longest)) / (b * b);
     const double expected = (1 - 2 * grazing / (top * top)) / (4 * pi);
-    check_z("energy", mean, deviation, expected, 0.005);
+    check_z("energy", mean, deviation, expected, 0.007);
 }
 
 // --- Machinery ---
@@ -399,7 +399,7 @@ static void sun_disc_keeps_irradiance(void **state)
 {
     struct medium medium = earth_like_medium(0.3);
     const struct reference_query queries[] = {make_query(0, 40, 60, 180), make_query(0, 40, 95, 0)};
-    const struct reference_desc desc = {.paths = 20000, .seed = 61};
+    const struct reference_desc desc = {.paths = 10000, .seed = 61};
     double beam[2], beam_error[2], disc[2], disc_error[2];
     assert_int_equal(reference_sky_radiance(*state, &medium, queries, 2, &desc, beam, beam_error),
                      TRL_OK);
@@ -419,7 +419,7 @@ static void tabulated_phase_gives_same_sky(void **state)
     struct medium medium = earth_like_medium(0.2);
     const struct reference_query queries[] = {make_query(0, 40, 60, 20), make_query(0, 80, 85, 120),
                                               make_query(5e3, 60, 120, 0)};
-    const struct reference_desc desc = {.paths = 20000, .seed = 71};
+    const struct reference_desc desc = {.paths = 10000, .seed = 71};
     double closed[3], closed_error[3], table[3], table_error[3];
     assert_int_equal(
         reference_sky_radiance(*state, &medium, queries, 3, &desc, closed, closed_error), TRL_OK);
@@ -431,7 +431,7 @@ static void tabulated_phase_gives_same_sky(void **state)
     }
     assert_int_equal(phase_table_init(*state, angle, value, KNOTS, &medium.constituents[1].phase),
                      TRL_OK);
-    const struct reference_desc other = {.paths = 20000, .seed = 72};
+    const struct reference_desc other = {.paths = 10000, .seed = 72};
     assert_int_equal(
         reference_sky_radiance(*state, &medium, queries, 3, &other, table, table_error), TRL_OK);
     for (int i = 0; i < 3; ++i) {
