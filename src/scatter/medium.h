@@ -42,7 +42,7 @@ struct phase {
     double g;          // Henyey-Greenstein, Cornette-Shanks: in (-1, 1)
     double *angle_rad; // table: ascending in [0, pi], owned (one block with value)
     double *value;     // table: sr^-1, integrates to 1 over the sphere
-    size_t count;      // table: >= 2
+    size_t count;      // table: >= 1
 };
 
 // Phase function in sr^-1 (integrates to 1 over the sphere) at the cosine of the scattering angle;

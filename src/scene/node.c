@@ -73,6 +73,20 @@ trl_result scene_node_fail(const struct scene_node *node, const char *format, ..
     return report_node(node, false, what);
 }
 
+// Jansson stops behind the token that it does not like; people look at its start.
+static size_t find_token_start(const struct scene_doc *doc, size_t end)
+{
+    if (end == 0 || end > doc->length) {
+        return 0;
+    }
+    size_t at = end - 1;
+    const bool is_string = doc->text[at] == '"';
+    while (at > 0 && !strchr(is_string ? "\"\n" : ",:{}[]\" \t\r\n", doc->text[at - 1])) {
+        at--;
+    }
+    return is_string && at > 0 ? at - 1 : at;
+}
+
 // Jansson's text names the last token, which can be long.
 static trl_result report_syntax(const struct scene_doc *doc, const json_error_t *error)
 {
@@ -84,7 +98,7 @@ static trl_result report_syntax(const struct scene_doc *doc, const json_error_t 
     const struct position_path path = position_path_at(doc->text, doc->length, offset);
     char what[MESSAGE_MAX];
     snprintf(what, sizeof what, "not JSON: %s", error->text);
-    return report(doc, offset > 0 ? offset - 1 : 0, &path, what);
+    return report(doc, find_token_start(doc, offset), &path, what);
 }
 
 trl_result scene_node_parse(const struct scene_doc *doc, struct scene_node *out, json_t **root)

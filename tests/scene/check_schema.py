@@ -1,0 +1,184 @@
+# SPDX-FileCopyrightText: 2026 the Terrella authors
+# SPDX-License-Identifier: MIT
+"""The JSON Schema and the reader agree: on every shipped scene, and on good and bad changes of one.
+
+check_schema.py SCENES_FOLDER READ_SCENES
+"""
+
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import jsonschema
+
+REMOVED = object()
+AIR = "atmosphere constituents 0 "
+
+# Where (keys and indices of the sample), what to put there, whether that is a scene.
+CHANGES = [
+    ("", {}, False), ("", [], False),
+    ("terrella", 2, False), ("terrella", REMOVED, False), ("terrella", True, False),
+    ("name", REMOVED, True), ("name", "", False), ("name", 3, False),
+    ("nmae", "x", False), ("comment", "x", True), ("comment", 1, False), ("$schema", "x", True),
+    ("star", REMOVED, False), ("star spectral_irradiance", REMOVED, False),
+    ("star spectral_irradiance", -1, False), ("star angular_radius_deg", REMOVED, True),
+    ("star angular_radius_deg", 91, False), ("star comment", "x", True),
+    ("planet", REMOVED, False), ("planet radius_m", 0, False), ("planet radius_m", 1e10, False),
+    ("planet radius_m", "9", False), ("planet radius_m", None, False),
+    ("planet ground_albedo", 1.5, False), ("planet ground_albedo", REMOVED, False),
+    ("planet ground_albedo", [[500, 0.5]], True), ("planet ground_albedo", [[500, 1.5]], False),
+    ("atmosphere", REMOVED, True), ("atmosphere height_m", REMOVED, False),
+    ("atmosphere height_m", 0, False), ("atmosphere constituents", [], True),
+    ("atmosphere constituents", REMOVED, False), ("atmosphere constituents", {}, False),
+    (AIR + "name", REMOVED, True), (AIR + "profile", REMOVED, False),
+    (AIR + "phase", REMOVED, False), (AIR + "scattering_per_m", REMOVED, True),
+    (AIR + "absorption_per_m", REMOVED, True), (AIR + "density", 1, False),
+    (AIR + "scattering_per_m", 1001, False), (AIR + "scattering_per_m", -1, False),
+    (AIR + "scattering_per_m", True, False), (AIR + "scattering_per_m", "1", False),
+    (AIR + "scattering_per_m", [], False), (AIR + "scattering_per_m", [[1, 2, 3]], False),
+    (AIR + "scattering_per_m", [[1, 0.2], [2, 0.3]], True),
+    (AIR + "scattering_per_m", [[0, 0.2]], False), (AIR + "scattering_per_m", [1, 2], False),
+    (AIR + "scattering_per_m", {}, False), (AIR + "scattering_per_m", {"comment": "x"}, False),
+    (AIR + "scattering_per_m", {"file": ""}, False),
+    (AIR + "scattering_per_m", {"file": "/vsicurl/x"}, False),
+    (AIR + "scattering_per_m", {"file": "http://x"}, False),
+    (AIR + "scattering_per_m", {"power_law": {"at_nm": 550, "value": 1e-5, "exponent": -1}}, True),
+    (AIR + "scattering_per_m", {"power_law": {"at_nm": 550, "value": 1e-5}}, False),
+    (AIR + "scattering_per_m", {"power_law": {"at_nm": 0, "value": 1e-5, "exponent": 1}}, False),
+    (AIR + "scattering_per_m",
+     {"rayleigh": {"refractive_index": 1.00027, "number_density_per_m3": 2.5e25}}, True),
+    (AIR + "scattering_per_m",
+     {"rayleigh": {"refractive_index": 0.9, "number_density_per_m3": 2.5e25}}, False),
+    (AIR + "scattering_per_m",
+     {"rayleigh": {"refractive_index": 1.1, "number_density_per_m3": 0}}, False),
+    (AIR + "scattering_per_m", {"blackbody": {"temperature_K": 5778, "total_W_m2": 0}}, True),
+    (AIR + "scattering_per_m", {"blackbody": {"temperature_K": 0, "total_W_m2": 0}}, False),
+    (AIR + "scattering_per_m", {"blackbody": {"temperature_K": 9}}, False),
+    (AIR + "profile", "uniform", True), (AIR + "profile", "even", False), (AIR + "profile", 1, False),
+    (AIR + "profile", {}, False), (AIR + "profile", {"exponential": {}}, False),
+    (AIR + "profile", {"exponential": {"scale_height_m": -8}}, False),
+    (AIR + "profile", {"tent": {"centre_m": 25000, "half_width_m": 15000}}, True),
+    (AIR + "profile", {"tent": {"centre_m": 25000, "half_width_m": 0}}, False),
+    (AIR + "profile", {"tent": {"half_width_m": 1}}, False),
+    (AIR + "profile", {"table": [[0, 1], [1000, 0]]}, True), (AIR + "profile", {"table": []}, False),
+    (AIR + "profile", {"table": [[0, -1]]}, False),
+    (AIR + "profile", {"table": [[0, 1]], "exponential": {"scale_height_m": 1}}, False),
+    (AIR + "phase", "isotropic", True), (AIR + "phase", "mie", False), (AIR + "phase", {}, False),
+    (AIR + "phase", {"henyey_greenstein": {"g": 0.76}}, True),
+    (AIR + "phase", {"henyey_greenstein": {"g": 1}}, False),
+    (AIR + "phase", {"henyey_greenstein": {}}, False),
+    (AIR + "phase", {"cornette_shanks": {"g": -0.5, "comment": "x"}}, True),
+    (AIR + "phase", {"cornette_shanks": {"g": "0"}}, False),
+    (AIR + "phase", {"table": [[0, 2], [180, 1]]}, True),
+    (AIR + "phase", {"table": [[0, 2], [181, 1]]}, False),
+    (AIR + "phase", {"table": [[0, -2]]}, False), (AIR + "phase", {"table": "x"}, False),
+    ("surface", REMOVED, True), ("surface", {}, False), ("surface layers", [], True),
+    ("surface layers 0 elevation", "/vsizip/x", False), ("surface layers 0 elevation", 5, False),
+    ("surface layers 0 scale", 2, True), ("surface layers 0 scale", "2", False),
+    ("surface layers 0 optional", 1, False), ("surface layers 0 optional", True, True),
+    ("surface layers 0 feather_deg", -1, False), ("surface layers 0 radiance_cd_m2", 1, False),
+    ("surface layers 0", {}, False), ("surface layers 0", {"water": "w", "colour": "c"}, False),
+    ("surface layers 0", {"lights": "l", "radiance_cd_m2": 2, "name": "n"}, True),
+    ("surface layers 0", {"colour": "c", "scale": 2}, False),
+    ("views", REMOVED, True), ("views", {}, True), ("views", [], False), ("views comment", "x", True),
+    ("views comment", 7, False),
+    ("views one", {}, False), ("views one camera", REMOVED, False), ("views one sun", REMOVED, False),
+    ("views one camera latitude_deg", 91, False), ("views one camera longitude_deg", REMOVED, False),
+    ("views one camera altitude_m", REMOVED, False),
+    ("views one camera height_above_ground_m", 5, False), ("views one camera roll_deg", 5, True),
+    ("views one camera vertical_fov_deg", 180, False), ("views one camera zoom", 2, False),
+    ("views one sun", {"subsolar_latitude_deg": 1, "subsolar_longitude_deg": 2}, True),
+    ("views one sun", {"subsolar_latitude_deg": 1, "azimuth_deg": 2}, False),
+    ("views one sun", {}, False), ("views one sun elevation_deg", -91, False),
+    ("views one exposure", {}, True), ("views one exposure", {"tone": "filmic", "ev100": 15}, True),
+    ("views one exposure", {"tone": "warm"}, False), ("views one exposure", {"bias_ev": 41}, False),
+]
+
+SAMPLE = {
+    "terrella": 1,
+    "name": "Test",
+    "star": {"spectral_irradiance": 1.5, "angular_radius_deg": 0.25},
+    "planet": {"radius_m": 6371000, "ground_albedo": 0.1},
+    "atmosphere": {"height_m": 100000, "constituents": [{
+        "name": "air", "scattering_per_m": 1e-5, "absorption_per_m": 0,
+        "profile": {"exponential": {"scale_height_m": 8000}}, "phase": "rayleigh"}]},
+    "surface": {"layers": [{"elevation": "a.tif"}]},
+    "views": {"one": {
+        "camera": {"latitude_deg": 10, "longitude_deg": 20, "altitude_m": 3},
+        "sun": {"elevation_deg": 45, "azimuth_deg": 180}}},
+}
+
+
+def change(path, value):
+    """The sample with one value put in or taken out."""
+    scene = copy.deepcopy(SAMPLE)
+    keys = [int(key) if key.isdigit() else key for key in path.split()]
+    if not keys:
+        return value
+    place = scene
+    for key in keys[:-1]:
+        place = place[key]
+    if value is REMOVED:
+        del place[keys[-1]]
+    else:
+        place[keys[-1]] = value
+    return scene
+
+
+def read(reader, files):
+    """What the reader says of each file."""
+    run = subprocess.run([reader, *files], stdout=subprocess.PIPE, check=True)
+    lines = run.stdout.decode().splitlines()
+    if len(lines) != len(files):
+        sys.exit(f"{len(lines)} lines from the reader for {len(files)} files")
+    return lines
+
+
+def check_shipped(validator, scenes, reader):
+    """Shipped scenes are scenes to both. Returns the number of faults."""
+    files = sorted(p for p in scenes.glob("*.json") if not p.name.endswith(".schema.json"))
+    if not files:
+        sys.exit(f"no scenes in {scenes}")
+    faults = 0
+    for file, said in zip(files, read(reader, files)):
+        errors = [e.message for e in validator.iter_errors(json.loads(file.read_text()))]
+        if errors or said != "ok":
+            print(f"{file.name}: schema: {errors}; reader: {said}")
+            faults += 1
+    return faults
+
+
+def check_changes(validator, reader):
+    """Both say of every change what is expected. Returns the number of faults."""
+    faults = 0
+    with tempfile.TemporaryDirectory() as folder:
+        files = []
+        for number, (path, value, _) in enumerate(CHANGES):
+            files.append(pathlib.Path(folder) / f"{number}.json")
+            files[-1].write_text(json.dumps(change(path, value)))
+        for (path, value, is_good), said in zip(CHANGES, read(reader, files)):
+            by_schema = validator.is_valid(change(path, value))
+            if by_schema != is_good or (said == "ok") != is_good:
+                shown = "removed" if value is REMOVED else json.dumps(value)
+                print(f"{path or 'root'} = {shown}: expected {is_good}, "
+                      f"schema {by_schema}, reader: {said}")
+                faults += 1
+    return faults
+
+
+def main():
+    scenes, reader = pathlib.Path(sys.argv[1]), sys.argv[2]
+    schema = json.loads((scenes / "terrella.schema.json").read_text())
+    jsonschema.Draft7Validator.check_schema(schema)
+    validator = jsonschema.Draft7Validator(schema)
+    if not validator.is_valid(SAMPLE):
+        sys.exit("the sample itself is not valid")
+    faults = check_shipped(validator, scenes, reader) + check_changes(validator, reader)
+    print(f"{len(CHANGES)} changes, {faults} faults")
+    sys.exit(1 if faults else 0)
+
+
+main()

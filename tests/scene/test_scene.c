@@ -1,0 +1,338 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Every form that a scene file may have, and what it means.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "log.h"
+#include "sample.h"
+#include "scene/scene.h"
+
+#define PI 3.14159265358979323846
+
+struct fixture {
+    trl_context *ctx;
+    struct test_log log;
+};
+
+static trl_scene *parse(struct fixture *f, const char *text)
+{
+    trl_scene *scene = NULL;
+    if (trl_scene_parse(f->ctx, text, strlen(text), "t.json", ".", &scene) != TRL_OK) {
+        fail_msg("%s", f->log.error);
+    }
+    return scene;
+}
+
+// The sample with one thing replaced; only what matters is compared.
+static trl_scene *parse_with(struct fixture *f, const char *from, const char *to)
+{
+    char *text = sample_replace(from, to);
+    assert_non_null(text);
+    trl_scene *scene = parse(f, text);
+    free(text);
+    return scene;
+}
+
+static void assert_near(double got, double wanted)
+{
+    if (!(fabs(got - wanted) <= 1e-13 * fabs(wanted))) { // a few roundings
+        fail_msg("got %.17g, wanted %.17g", got, wanted);
+    }
+}
+
+static void sample_is_read_whole(void **state)
+{
+    trl_scene *s = parse(*state, sample_scene);
+    assert_string_equal(trl_scene_name(s), "Test");
+    assert_near(trl_scene_ground_radius_m(s), 6371000);
+    assert_near(trl_scene_top_radius_m(s), 6471000);
+    assert_near(s->medium.star_irradiance.constant, 1.5);
+    assert_near(s->medium.star_angular_radius_rad, 0.25 * PI / 180);
+    assert_near(s->medium.ground_albedo.constant, 0.1);
+    assert_int_equal(s->medium.constituent_count, 1);
+    assert_string_equal(s->medium.constituents[0].name, "air");
+    assert_near(s->medium.constituents[0].scattering_per_m.constant, 1e-5);
+    assert_int_equal(s->medium.constituents[0].profile.kind, PROFILE_EXPONENTIAL);
+    assert_near(s->medium.constituents[0].profile.scale_height_m, 8000);
+    assert_int_equal(s->medium.constituents[0].phase.kind, PHASE_RAYLEIGH);
+    trl_scene_destroy(&s);
+    assert_null(s);
+    trl_scene_destroy(&s);
+}
+
+static void optional_parts_may_be_missing(void **state)
+{
+    trl_scene *s = parse(*state, "{\"terrella\":1,\"star\":{\"spectral_irradiance\":1},"
+                                 "\"planet\":{\"radius_m\":100,\"ground_albedo\":0}}");
+    assert_string_equal(trl_scene_name(s), "t.json");
+    assert_true(trl_scene_top_radius_m(s) > 100);
+    assert_int_equal(s->medium.constituent_count, 0);
+    assert_int_equal(trl_scene_layer_count(s), 0);
+    assert_int_equal(trl_scene_view_count(s), 0);
+    trl_view view;
+    assert_int_equal(trl_scene_view(s, NULL, &view), TRL_OK);
+    assert_near(view.altitude_m, 300);
+    trl_scene_destroy(&s);
+    s = parse_with(*state, "[\n    { \"name\"", "[ { \"name\"");
+    trl_scene_destroy(&s);
+}
+
+static void missing_coefficients_are_zero_and_need_no_phase(void **state)
+{
+    trl_scene *s = parse(*state, "{\"terrella\":1,\"star\":{\"spectral_irradiance\":1},\"planet\":"
+                                 "{\"radius_m\":100,\"ground_albedo\":0},\"atmosphere\":{"
+                                 "\"height_m\":9,\"constituents\":[{\"profile\":\"uniform\"}]}}");
+    const struct constituent *c = &s->medium.constituents[0];
+    assert_true(spectrum_at(&c->scattering_per_m, 500) == 0);
+    assert_true(spectrum_at(&c->absorption_per_m, 500) == 0);
+    assert_int_equal(c->profile.kind, PROFILE_UNIFORM);
+    assert_int_equal(c->phase.kind, PHASE_ISOTROPIC);
+    trl_scene_destroy(&s);
+}
+
+static void every_spectrum_form_is_read(void **state)
+{
+    const struct {
+        const char *json;
+        enum spectrum_kind kind;
+        double at_550;
+    } forms[] = {
+        {"2e-5", SPECTRUM_CONSTANT, 2e-5},
+        {"[[500, 1e-5], [600, 3e-5]]", SPECTRUM_TABLE, 2e-5},
+        {"{\"power_law\": {\"at_nm\": 275, \"value\": 8e-5, \"exponent\": -2}}", SPECTRUM_POWER_LAW,
+         2e-5},
+        {"{\"rayleigh\": {\"refractive_index\": 1.00027, \"number_density_per_m3\": 2.5e25}, "
+         "\"comment\": \"air\"}",
+         SPECTRUM_RAYLEIGH, 1.0542226794701448e-05},
+        {"{\"blackbody\": {\"temperature_K\": 5778, \"total_W_m2\": 0}}", SPECTRUM_BLACKBODY, 0},
+    };
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        trl_scene *s = parse_with(*state, "1e-5", forms[i].json);
+        const struct spectrum *spectrum = &s->medium.constituents[0].scattering_per_m;
+        assert_int_equal(spectrum->kind, forms[i].kind);
+        const double got = spectrum_at(spectrum, 550);
+        assert_true(fabs(got - forms[i].at_550) <= 1e-11 * forms[i].at_550);
+        trl_scene_destroy(&s);
+    }
+}
+
+static void every_profile_form_is_read(void **state)
+{
+    const char *old = "{ \"exponential\": { \"scale_height_m\": 8000 } }";
+    const struct {
+        const char *json;
+        double at_7500_m;
+    } forms[] = {
+        {"\"uniform\"", 1},
+        {"{\"exponential\": {\"scale_height_m\": 7500}}", 0.36787944117144233},
+        {"{\"tent\": {\"centre_m\": 5000, \"half_width_m\": 5000}}", 0.5},
+        {"{\"table\": [[0, 2], [10000, 0]]}", 0.5},
+    };
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        trl_scene *s = parse_with(*state, old, forms[i].json);
+        assert_near(profile_density(&s->medium.constituents[0].profile, 7500), forms[i].at_7500_m);
+        trl_scene_destroy(&s);
+    }
+}
+
+static void every_phase_form_is_read(void **state)
+{
+    const struct {
+        const char *json;
+        enum phase_kind kind;
+        double first_moment;
+    } forms[] = {
+        {"\"rayleigh\"", PHASE_RAYLEIGH, 0},
+        {"\"isotropic\"", PHASE_ISOTROPIC, 0},
+        {"{\"henyey_greenstein\": {\"g\": 0.5}}", PHASE_HENYEY_GREENSTEIN, 0.5},
+        // 3 / (2 (2 + g^2)) (8/5 g + 2/5 g^3) at g = 1/2
+        {"{\"cornette_shanks\": {\"g\": 0.5}}", PHASE_CORNETTE_SHANKS, 17.0 / 30},
+        // 1 + cos is not linear in the angle; a constant is.
+        {"{\"table\": [[0, 3], [180, 3]]}", PHASE_TABLE, 0},
+    };
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        trl_scene *s = parse_with(*state, "\"rayleigh\"", forms[i].json);
+        const struct phase *phase = &s->medium.constituents[0].phase;
+        assert_int_equal(phase->kind, forms[i].kind);
+        double moments[2];
+        phase_moments(phase, 1, moments);
+        assert_true(fabs(moments[0] - 1) < 1e-13);
+        assert_true(fabs(moments[1] - forms[i].first_moment) < 1e-13);
+        trl_scene_destroy(&s);
+    }
+}
+
+static void comments_are_allowed_in_any_object(void **state)
+{
+    trl_scene *s =
+        parse_with(*state, "\"scale_height_m\"", "\"comment\": \"Elek 2010\", \"scale_height_m\"");
+    trl_scene_destroy(&s);
+    s = parse_with(*state, "{ \"one\"", "{ \"comment\": \"c\", \"one\"");
+    assert_int_equal(trl_scene_view_count(s), 1);
+    trl_scene_destroy(&s);
+}
+
+static void layers_are_read(void **state)
+{
+    trl_scene *s = parse_with(
+        *state, "{ \"elevation\": \"a.tif\" }",
+        "{\"elevation\": \"a.tif\", \"scale\": 0.5, \"offset_m\": -3, \"feather_deg\": 2, "
+        "\"optional\": true, \"name\": \"Alps\"}, {\"colour\": \"b/c.png\"}, "
+        "{\"water\": \"/w.tif\"}, {\"lights\": \"l.tif\", \"radiance_cd_m2\": 7}");
+    assert_int_equal(trl_scene_layer_count(s), 4);
+    assert_string_equal(trl_scene_layer_name(s, 0), "Alps");
+    assert_near(s->layers[0].scale, 0.5);
+    assert_near(s->layers[0].offset_m, -3);
+    assert_near(s->layers[0].feather_deg, 2);
+    assert_true(s->layers[0].is_optional && !s->layers[1].is_optional);
+    assert_int_equal(s->layers[1].kind, LAYER_COLOUR);
+    assert_string_equal(trl_scene_layer_name(s, 1), "b/c.png");
+    assert_string_equal(trl_scene_layer_path(s, 1), "/nonexistent/terrella-data/b/c.png");
+    assert_false(trl_scene_layer_is_present(s, 1));
+    assert_string_equal(trl_scene_layer_path(s, 2), "/w.tif");
+    assert_near(s->layers[3].radiance_cd_m2, 7);
+    assert_null(trl_scene_layer_name(s, 4));
+    assert_null(trl_scene_layer_path(s, 4));
+    assert_false(trl_scene_layer_is_present(s, 4));
+    trl_scene_destroy(&s);
+}
+
+static void views_are_read(void **state)
+{
+    struct fixture *f = *state;
+    trl_scene *s = parse_with(
+        f, "{ \"one\": {",
+        "{ \"two\": {\"camera\": {\"latitude_deg\": -90, \"longitude_deg\": 0, "
+        "\"height_above_ground_m\": 2, \"heading_deg\": 90, \"pitch_deg\": -45, \"roll_deg\": 180, "
+        "\"vertical_fov_deg\": 60}, \"sun\": {\"subsolar_latitude_deg\": 18, "
+        "\"subsolar_longitude_deg\": 36}, \"exposure\": {\"ev100\": 15, \"bias_ev\": -1, "
+        "\"tone\": \"exponential\"}}, \"one\": {");
+    assert_int_equal(trl_scene_view_count(s), 2);
+    assert_string_equal(trl_scene_view_name(s, 1), "one");
+    assert_null(trl_scene_view_name(s, 2));
+    trl_view v;
+    assert_int_equal(trl_scene_view(s, NULL, &v), TRL_OK); // the first one
+    assert_near(v.latitude_rad, -PI / 2);
+    assert_int_equal(v.altitude_mode, TRL_ALTITUDE_GROUND);
+    assert_near(v.altitude_m, 2);
+    assert_near(v.heading_rad, PI / 2);
+    assert_near(v.pitch_rad, -PI / 4);
+    assert_near(v.roll_rad, PI);
+    assert_near(v.vertical_fov_rad, PI / 3);
+    assert_int_equal(v.sun_mode, TRL_SUN_SUBSOLAR);
+    assert_near(v.sun_latitude_or_elevation_rad, PI / 10);
+    assert_near(v.sun_longitude_or_azimuth_rad, PI / 5);
+    assert_true(v.has_fixed_exposure);
+    assert_near(v.exposure_ev100, 15);
+    assert_near(v.exposure_bias_ev, -1);
+    assert_int_equal(v.tone_curve, TRL_TONE_EXPONENTIAL);
+    assert_int_equal(trl_scene_view(s, "one", &v), TRL_OK);
+    assert_int_equal(v.sun_mode, TRL_SUN_LOCAL);
+    assert_near(v.sun_longitude_or_azimuth_rad, PI);
+    assert_true(v.pitch_rad == 0 && !v.has_fixed_exposure);
+    assert_int_equal(trl_scene_view(s, "three", &v), TRL_ERROR_INVALID);
+    assert_non_null(strstr(f->log.error, "\"three\""));
+    assert_non_null(strstr(f->log.error, "two, one"));
+    trl_scene_destroy(&s);
+}
+
+static void write_text(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void files_are_found_beside_the_scene(void **state)
+{
+    struct fixture *f = *state;
+    char folder[] = "/tmp/terrella-scene-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    char scene_path[256];
+    char csv_path[256];
+    char raster_path[256];
+    snprintf(scene_path, sizeof scene_path, "%s/s.json", folder);
+    snprintf(csv_path, sizeof csv_path, "%s/x.csv", folder);
+    snprintf(raster_path, sizeof raster_path, "%s/a.tif", folder);
+    char *text = sample_replace("1e-5", "{\"file\": \"x.csv\"}");
+    assert_non_null(text);
+    write_text(scene_path, text);
+    write_text(csv_path, "nm,value\n500,1e-5\n600,3e-5\n");
+    write_text(raster_path, "not yet a raster");
+    free(text);
+    trl_scene *s = NULL;
+    assert_int_equal(trl_scene_load(f->ctx, scene_path, &s), TRL_OK);
+    assert_near(spectrum_at(&s->medium.constituents[0].scattering_per_m, 550), 2e-5);
+    assert_string_equal(trl_scene_layer_path(s, 0), raster_path);
+    assert_true(trl_scene_layer_is_present(s, 0));
+    trl_scene_destroy(&s);
+
+    // What a file says is checked like what the scene says, at the place that names it.
+    write_text(csv_path, "500,1e-5\n600,-1\n");
+    assert_int_equal(trl_scene_load(f->ctx, scene_path, &s), TRL_ERROR_INVALID);
+    assert_non_null(strstr(f->log.error, "s.json:5:42: atmosphere.constituents[0]."
+                                         "scattering_per_m: is -1 at 600 nm"));
+    assert_int_equal(unlink(raster_path), 0);
+    assert_int_equal(unlink(csv_path), 0);
+    assert_int_equal(unlink(scene_path), 0);
+    assert_int_equal(rmdir(folder), 0);
+    assert_int_equal(trl_scene_load(f->ctx, scene_path, &s), TRL_ERROR_IO);
+    assert_null(s);
+}
+
+static void null_arguments_are_refused(void **state)
+{
+    struct fixture *f = *state;
+    trl_scene *s = NULL;
+    assert_int_equal(trl_scene_parse(f->ctx, NULL, 0, "t", ".", &s), TRL_ERROR_INVALID);
+    assert_int_equal(trl_scene_parse(f->ctx, "{}", 2, NULL, ".", &s), TRL_ERROR_INVALID);
+    assert_int_equal(trl_scene_parse(f->ctx, "{}", 2, "t", NULL, &s), TRL_ERROR_INVALID);
+    assert_int_equal(trl_scene_parse(f->ctx, "{}", 2, "t", ".", NULL), TRL_ERROR_INVALID);
+    assert_int_equal(trl_scene_parse(NULL, "{}", 2, "t", ".", &s), TRL_ERROR_INVALID);
+    assert_int_equal(trl_scene_load(f->ctx, NULL, &s), TRL_ERROR_INVALID);
+    assert_int_equal(trl_scene_load(f->ctx, "t", NULL), TRL_ERROR_INVALID);
+    trl_scene_destroy(NULL);
+}
+
+static int make_fixture(void **state)
+{
+    static struct fixture f;
+    f.ctx = test_context(&f.log);
+    *state = &f;
+    return f.ctx == NULL;
+}
+
+static int free_fixture(void **state)
+{
+    struct fixture *f = *state;
+    trl_context_destroy(&f->ctx);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sample_is_read_whole),
+        cmocka_unit_test(optional_parts_may_be_missing),
+        cmocka_unit_test(missing_coefficients_are_zero_and_need_no_phase),
+        cmocka_unit_test(every_spectrum_form_is_read),
+        cmocka_unit_test(every_profile_form_is_read),
+        cmocka_unit_test(every_phase_form_is_read),
+        cmocka_unit_test(comments_are_allowed_in_any_object),
+        cmocka_unit_test(layers_are_read),
+        cmocka_unit_test(views_are_read),
+        cmocka_unit_test(files_are_found_beside_the_scene),
+        cmocka_unit_test(null_arguments_are_refused),
+    };
+    return cmocka_run_group_tests(tests, make_fixture, free_fixture);
+}
