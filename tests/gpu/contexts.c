@@ -5,6 +5,7 @@
 #include "gpu/timer.h"
 
 #include <epoxy/gl.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void contexts_come_and_go_together(void **state)
@@ -170,6 +171,86 @@ static void gl_errors_are_reported_once(void **state)
     assert_int_equal(gpu_check(f->gpu, "test"), TRL_OK);
 }
 
+// An allocator that gives out a number of blocks and then no more.
+struct budget {
+    int blocks_left;
+    int blocks_out;
+};
+
+static void *budget_allocate(void *user, size_t bytes)
+{
+    struct budget *budget = user;
+    if (budget->blocks_left == 0) {
+        return NULL;
+    }
+    budget->blocks_left--;
+    budget->blocks_out++;
+    return malloc(bytes);
+}
+
+static void *budget_reallocate(void *user, void *block, size_t bytes)
+{
+    (void)user;
+    return realloc(block, bytes);
+}
+
+static void budget_release(void *user, void *block)
+{
+    struct budget *budget = user;
+    budget->blocks_out -= block != NULL;
+    free(block);
+}
+
+static trl_result make_everything(trl_context *ctx)
+{
+    const struct gpu_program_desc program_desc = {.vertex = "lib/fullscreen.vert",
+                                                  .fragment = "uniforms.frag",
+                                                  .defines = (const char *const[]){"SCALE 2"},
+                                                  .define_count = 1};
+    const struct gpu_texture_desc texture_desc = gpu_texture_desc_default();
+    struct gpu *gpu = NULL;
+    struct gpu_texture texture = {0};
+    struct gpu_program program = {0};
+    uint8_t texel[4];
+    trl_result result = gpu_create_headless(ctx, &gpu);
+    if (result == TRL_OK) {
+        result = gpu_texture_init(gpu, &texture_desc, &texture);
+    }
+    if (result == TRL_OK) {
+        const struct gpu_region all = gpu_texture_region(&texture, 0);
+        result = gpu_texture_read(&texture, &all, texel);
+    }
+    if (result == TRL_OK) {
+        result = gpu_program_init(gpu, &program_desc, &program);
+    }
+    gpu_program_finish(&program);
+    gpu_texture_finish(&texture);
+    assert_true(!gpu || gpu->live_objects == 0);
+    gpu_destroy(&gpu);
+    return result;
+}
+
+static void every_failed_allocation_is_survived(void **state)
+{
+    struct fixture *f = *state;
+    trl_result result = TRL_ERROR_MEMORY;
+    for (int n = 0; result != TRL_OK; n++) {
+        assert_true(n < 200); // far more than there are
+        struct budget budget = {.blocks_left = INT32_MAX};
+        trl_context_desc desc = trl_context_desc_default();
+        desc.allocator =
+            (trl_allocator){budget_allocate, budget_reallocate, budget_release, &budget};
+        trl_context *ctx = NULL;
+        assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
+        budget.blocks_left = n;
+        result = make_everything(ctx);
+        assert_true(result == TRL_OK || result == TRL_ERROR_MEMORY);
+        trl_context_destroy(&ctx);
+        assert_int_equal(budget.blocks_out, 0);
+    }
+    assert_int_equal(gpu_make_current(f->gpu), TRL_OK);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -181,6 +262,7 @@ int main(void)
         cmocka_unit_test(limits_are_those_of_the_standard_or_more),
         cmocka_unit_test(timers_give_a_row_for_each_scope),
         cmocka_unit_test(gl_errors_are_reported_once),
+        cmocka_unit_test(every_failed_allocation_is_survived),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Values, textures and blocks arrive in shaders; mistakes in them are told with file and line.
 #include "fixture.h"
+#include "gpu/shader_source.h"
 #include "shaders/test_block.glsl"
 
 #include <math.h>
@@ -142,12 +143,39 @@ static void errors_name_file_and_line(void **state)
     expect_refused(f, "unlinkable.frag", TRL_ERROR_GPU, "link");
 }
 
+// The forms of Mesa, NVIDIA and ANGLE; what has no place, or that of no file, stays as it is.
+static void every_drivers_places_are_understood(void **state)
+{
+    struct fixture *f = *state;
+    const struct shader_request request = {.name = "broken.frag", .language = {.version = 330}};
+    struct shader_source source;
+    assert_int_equal(shader_source_init(f->ctx, &request, &source), TRL_OK);
+    assert_int_equal(source.file_count, 2);
+    static const char *const cases[][2] = {
+        {"1:5(12): error: x", "broken_part.glsl:5(12): error: x"},
+        {"0(7) : error C1: x", "broken.frag:7 : error C1: x"},
+        {"ERROR: 1:5: 'x' : y\nERROR: 0:7: z\n", "broken_part.glsl:5: 'x' : y\nbroken.frag:7: z"},
+        {"WARNING: 0:3: x\n\n", "broken.frag:3: x"},
+        {"2:5: no such file", "2:5: no such file"},
+        {"3 errors generated\n1:", "3 errors generated\n1:"},
+        {"12:\n34", "12:\n34"},
+        {"", ""}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *text = shader_source_explain(&source, cases[i][0]);
+        assert_non_null(text);
+        assert_string_equal(text, cases[i][1]);
+        mem_free(f->ctx, text);
+    }
+    shader_source_finish(&source);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_of_uniform_arrives),
         cmocka_unit_test(every_kind_of_sampler_arrives),
         cmocka_unit_test(errors_name_file_and_line),
+        cmocka_unit_test(every_drivers_places_are_understood),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }
