@@ -210,6 +210,45 @@ trl_result phase_table_init(const trl_context *ctx, const double *angle_rad, con
     return TRL_OK;
 }
 
+struct quantity {
+    const struct spectrum *spectrum;
+    const char *name;
+    double max;
+};
+
+static trl_result check_quantity(const trl_context *ctx, const struct quantity *q, double nm)
+{
+    const double value = spectrum_at(q->spectrum, nm);
+    if (value >= 0 && value <= q->max) {
+        return TRL_OK;
+    }
+    return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_SCENE,
+                    "%s is %g at %g nm; must be >= 0 and <= %g", q->name, value, nm, q->max);
+}
+
+trl_result medium_check(const trl_context *ctx, const struct medium *medium, double nm)
+{
+    const struct quantity albedo = {&medium->ground_albedo, "ground albedo", 1};
+    const struct quantity star = {&medium->star_irradiance, "the star's irradiance",
+                                  MEDIUM_MAX_IRRADIANCE};
+    trl_result result = check_quantity(ctx, &albedo, nm);
+    if (result == TRL_OK) {
+        result = check_quantity(ctx, &star, nm);
+    }
+    for (size_t i = 0; result == TRL_OK && i < medium->constituent_count; i++) {
+        const struct constituent *c = &medium->constituents[i];
+        const struct quantity scattering = {&c->scattering_per_m, "scattering per metre",
+                                            MEDIUM_MAX_PER_M};
+        const struct quantity absorption = {&c->absorption_per_m, "absorption per metre",
+                                            MEDIUM_MAX_PER_M};
+        result = check_quantity(ctx, &scattering, nm);
+        if (result == TRL_OK) {
+            result = check_quantity(ctx, &absorption, nm);
+        }
+    }
+    return result;
+}
+
 void medium_finish(const trl_context *ctx, struct medium *medium)
 {
     spectrum_finish(ctx, &medium->ground_albedo);

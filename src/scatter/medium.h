@@ -9,6 +9,10 @@
 
 enum { MEDIUM_MAX_CONSTITUENTS = 16 };
 
+// Above what any planet has, and low enough that what is computed from it stays finite.
+#define MEDIUM_MAX_PER_M 1e3
+#define MEDIUM_MAX_IRRADIANCE 1e9
+
 enum profile_kind {
     PROFILE_UNIFORM = 0,
     PROFILE_EXPONENTIAL, // exp(-altitude / scale_height_m)
@@ -77,6 +81,12 @@ TRL_MUST_USE trl_result profile_table_init(const trl_context *ctx, const double 
 // Scales the values so that the phase function integrates to 1 over the sphere.
 TRL_MUST_USE trl_result phase_table_init(const trl_context *ctx, const double *angle_rad,
                                          const double *value, size_t count, struct phase *out);
+
+// Can this wavelength be computed? Tables and formulas are checked where eyes see when a scene is
+// read; a wavelength far from there may still give an albedo above 1 or a coefficient that is
+// absurd. TRL_ERROR_INVALID, logged, when a value is not finite or out of range.
+TRL_MUST_USE trl_result medium_check(const trl_context *ctx, const struct medium *medium,
+                                     double nm);
 
 // Frees everything the medium owns; a zeroed medium is a no-op.
 void medium_finish(const trl_context *ctx, struct medium *medium);

@@ -13,9 +13,9 @@ static const struct scene_range lengths = {.min = 1, .max = 1e9};
 static const struct scene_range scale_lengths = {.min = 1e-3, .max = 1e9};
 static const struct scene_range altitudes = {.min = -1e9, .max = 1e9};
 static const struct scene_range densities = {.min = 0, .max = 1e6};
-static const struct scene_range coefficients = {.min = 0, .max = 1e3};
+static const struct scene_range coefficients = {.min = 0, .max = MEDIUM_MAX_PER_M};
 static const struct scene_range albedos = {.min = 0, .max = 1};
-static const struct scene_range irradiances = {.min = 0, .max = 1e9};
+static const struct scene_range irradiances = {.min = 0, .max = MEDIUM_MAX_IRRADIANCE};
 static const struct scene_range star_radii_deg = {.min = 0, .max = 90};
 // A peak narrower than this is a delta function in float.
 static const struct scene_range asymmetries = {.min = -0.9999, .max = 0.9999};

@@ -178,6 +178,20 @@ static void profiles_have_their_forms(void **state)
     mem_free(ctx, table.altitude_m);
 }
 
+static void values_out_of_range_at_a_wavelength_are_told(void **state)
+{
+    trl_context *ctx = *state;
+    struct medium m = {.constituent_count = 1};
+    m.ground_albedo = (struct spectrum){.kind = SPECTRUM_POWER_LAW, .power_law = {500, 0.5, 1}};
+    m.constituents[0].absorption_per_m =
+        (struct spectrum){.kind = SPECTRUM_POWER_LAW, .power_law = {500, 1, -20}};
+    assert_int_equal(medium_check(ctx, &m, 800), TRL_OK);
+    assert_int_equal(medium_check(ctx, &m, 1100), TRL_ERROR_INVALID); // albedo 1.1
+    assert_int_equal(medium_check(ctx, &m, 300), TRL_ERROR_INVALID);  // 2.7e4 per metre
+    m.ground_albedo = (struct spectrum){.constant = NAN};
+    assert_int_equal(medium_check(ctx, &m, 800), TRL_ERROR_INVALID);
+}
+
 static int make_context(void **state)
 {
     static struct test_log log;
@@ -202,6 +216,7 @@ int main(void)
         cmocka_unit_test(table_of_one_knot_is_isotropic),
         cmocka_unit_test(fine_table_approaches_what_it_samples),
         cmocka_unit_test(profiles_have_their_forms),
+        cmocka_unit_test(values_out_of_range_at_a_wavelength_are_told),
     };
     return cmocka_run_group_tests(tests, make_context, free_context);
 }
