@@ -11,6 +11,9 @@
 // names go before the built-in ones of the same name. Versions: 330 core or 300 es; with
 // tessellation 400 core or 320 es.
 //
+// Tests validate every pass offline without defines; one that needs some says so in a line like
+// `// validate: LAYER_COUNT 3; HAS_WATER 1`, one for each variant.
+//
 // Drivers compile at the first draw and again for each new combination of state and formats (docs
 // of the platform: seconds in software), so keep programs small and their state fixed.
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Prints shaders exactly as drivers get them, for validate_shaders.py.
-//     shader_dump                     the names of all built-in shaders
-//     shader_dump NAME VERSION        the text, VERSION "330" (core) or "300" (es)
+//     shader_dump                            the names of all built-in shaders
+//     shader_dump NAME VERSION [DEFINE...]   the text; VERSION 330, 400 (core), 300 or 320 (es)
 #include "gpu/shader_source.h"
 
 #include <stdio.h>
@@ -19,12 +19,13 @@ int main(int argc, char **argv)
     trl_context_desc desc = trl_context_desc_default();
     desc.log = trl_log_stderr;
     trl_context *ctx = NULL;
-    if (argc != 3 || trl_context_create(&desc, &ctx) != TRL_OK) {
+    if (argc < 3 || trl_context_create(&desc, &ctx) != TRL_OK) {
         return 2;
     }
     const int version = atoi(argv[2]);
-    // 300 and 320 are ES; 330 and 400 core.
     const struct shader_request request = {.name = argv[1],
+                                           .defines = (const char *const *)argv + 3,
+                                           .define_count = (size_t)argc - 3,
                                            .language = {.version = version,
                                                         .is_es = version < 330,
                                                         .has_clip_control = version >= 330}};
