@@ -233,7 +233,8 @@ struct reference_ray reference_air_ray(const struct reference_air *air, double r
     const double perigee2 = radius_m * radius_m * (1 - mu) * (1 + mu);
     return (struct reference_ray){.perigee2_m2 = perigee2,
                                   .begin_m = radius_m * mu,
-                                  .hits_ground = mu < 0 && perigee2 < ground * ground};
+                                  .hits_ground =
+                                      mu < 0 && (radius_m <= ground || perigee2 < ground * ground)};
 }
 
 static double altitude_at(const struct reference_air *air, const struct reference_ray *ray,

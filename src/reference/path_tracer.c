@@ -34,14 +34,17 @@ static const double long_path_survival = 0.99;
 // Share of collisions drawn as if the air scattered although it only absorbs: covers shells whose
 // middle stands badly for the rest.
 static const double floor_share = 0.01;
-// Share of collisions drawn by sunlight, and the sunlit part of a ray's scattering at which it is
+// The sunlit part of a ray's scattering at which it is
 // halved.
-static const double sunlit_share = 0.5, sunlit_knee = 1e-6;
+static const double sunlit_knee = 1e-6;
 
 // The glow of twilight as a lobe: Henyey-Greenstein about the horizontal toward the sun, tilted up;
 // its share of the directions grows as the sun goes down from one cosine of its zenith angle by a
 // range of them.
 static const double glow_g = 0.75, glow_height = 0.1;
+// Only the first orders know of it in full: each use may double the weight, and the product of all
+// the factors 1 / (1 - share) must stay bounded however long the path is.
+static const double glow_orders = 2;
 static const double glow_share = 0.5, glow_begin_mu = 0.03, glow_range_mu = 0.08;
 
 struct tracer {
@@ -69,6 +72,7 @@ struct path {
     struct vec3 position; // from the planet's centre
     struct vec3 direction;
     double weight;
+    int order; // of the event that comes next, from 1
     bool is_on_ground;
 };
 
@@ -116,12 +120,13 @@ struct glow {
     double share;
 };
 
-static struct glow find_glow(struct vec3 sun, struct vec3 up)
+static struct glow find_glow(struct vec3 sun, struct vec3 up, int order)
 {
     const double mu_sun = vec3_dot(sun, up);
+    const double fade = order / glow_orders;
     const struct vec3 level = vec3_normalize(vec3_sub(sun, vec3_scale(up, mu_sun)));
     return (struct glow){.axis = vec3_normalize(vec3_add(level, vec3_scale(up, glow_height))),
-                         .share = glow_share *
+                         .share = glow_share / fmax(1, fade * fade) *
                                   fmin(fmax((glow_begin_mu - mu_sun) / glow_range_mu, 0), 1)};
 }
 
@@ -182,7 +187,7 @@ static struct mixture mix_densities(const struct ray_sums *sums, double glow_par
 {
     const double knee = sunlit_knee * sums->density[BY_SCATTERING];
     const double sunlit =
-        sunlit_share * sums->density[BY_SUNLIGHT] / (sums->density[BY_SUNLIGHT] + knee);
+        glow_part * sums->density[BY_SUNLIGHT] / (sums->density[BY_SUNLIGHT] + knee);
     const double high = (1 - sunlit) * glow_part;
     return (struct mixture){
         {[BY_SCATTERING] = 1 - sunlit - high, [BY_SUNLIGHT] = sunlit, [BY_HEIGHT] = high}};
@@ -283,7 +288,8 @@ static bool advance(const struct tracer *tracer, struct vec3 sun, struct scratch
         hit_ground(tracer, &ray, path);
     } else {
         path->weight *= all / sums.density[BY_SCATTERING];
-        const double glow_part = find_glow(sun, vec3_scale(path->position, 1 / length)).share;
+        const double glow_part =
+            find_glow(sun, vec3_scale(path->position, 1 / length), path->order).share;
         const struct mixture mixture = mix_densities(&sums, glow_part);
         collide(tracer, &ray, &sums, &mixture, scratch, path);
     }
@@ -401,7 +407,7 @@ static void scatter(const struct tracer *tracer, const struct glow *glow, struct
 static void redirect(const struct tracer *tracer, struct vec3 sun, struct path *path)
 {
     const struct vec3 up = vec3_normalize(path->position);
-    const struct glow glow = find_glow(sun, up);
+    const struct glow glow = find_glow(sun, up, path->order);
     if (path->is_on_ground) {
         reflect(&glow, up, path);
     } else {
@@ -409,10 +415,10 @@ static void redirect(const struct tracer *tracer, struct vec3 sun, struct path *
     }
 }
 
-static bool survives(struct path *path, int order)
+static bool survives(struct path *path)
 {
     double chance = path->weight < roulette_weight ? 0.5 : 1;
-    chance *= order > LONG_PATH ? long_path_survival : 1;
+    chance *= path->order > LONG_PATH ? long_path_survival : 1;
     path->weight /= chance;
     return chance == 1 || next(path) < chance;
 }
@@ -421,9 +427,9 @@ static double trace_path(const struct tracer *tracer, struct vec3 sun, struct sc
                          struct path *path)
 {
     double radiance = 0;
-    for (int order = 1; advance(tracer, sun, scratch, path); ++order) {
+    for (path->order = 1; advance(tracer, sun, scratch, path); ++path->order) {
         radiance += path->weight * sunlight(tracer, sun, path);
-        if (order == tracer->max_order || !survives(path, order)) {
+        if (path->order == tracer->max_order || !survives(path)) {
             break;
         }
         redirect(tracer, sun, path);

@@ -233,18 +233,20 @@ static void thin_air_scatters_once(void **state)
 static void white_furnace_shows_nothing(void **state)
 {
     enum { RINGS = 32, SECTORS = 24, SUNS = RINGS * SECTORS };
-    const struct medium medium = uniform_medium(1.5e-5, 0, 1);
-    static const double altitudes[] = {0, 20e3, 20e3, 50e3}, zeniths[] = {50, 90, 140, 93};
+    // The last one is deep under matter of depth 6, where paths are long.
+    static const double scatterings[] = {1.5e-5, 1.5e-5, 1.5e-5, 1.5e-5, 1e-4};
+    static const double altitudes[] = {0, 20e3, 20e3, 50e3, 0}, zeniths[] = {50, 90, 140, 93, 30};
     struct reference_query queries[SUNS];
     double radiance[SUNS], error[SUNS];
-    for (int v = 0; v < 4; ++v) {
+    for (int v = 0; v < 5; ++v) {
+        const struct medium medium = uniform_medium(scatterings[v], 0, 1);
         for (int i = 0; i < SUNS; ++i) {
             const double mu_sun = 1 - (i / SECTORS + 0.5) * 2 / RINGS;
             queries[i] =
                 make_query(altitudes[v], 0, zeniths[v], (i % SECTORS + 0.5) * 360 / SECTORS);
             queries[i].sun_zenith_rad = acos(mu_sun);
         }
-        const struct reference_desc desc = {.paths = 24, .seed = 21 + (uint64_t)v};
+        const struct reference_desc desc = {.paths = v < 4 ? 24 : 6, .seed = 21 + (uint64_t)v};
         assert_int_equal(
             reference_sky_radiance(*state, &medium, queries, SUNS, &desc, radiance, error), TRL_OK);
         double sum = 0, variance = 0;
@@ -254,9 +256,9 @@ static void white_furnace_shows_nothing(void **state)
         }
         const double mu = cos(rad(zeniths[v])), r = medium.ground_radius_m + altitudes[v];
         const bool is_ground = mu < 0 && r * sqrt(1 - mu * mu) < medium.ground_radius_m;
-        const double seen = is_ground ? 1 : 1 - exp(-1.5e-5 * ray_length(&medium, r, mu));
+        const double seen = is_ground ? 1 : 1 - exp(-scatterings[v] * ray_length(&medium, r, mu));
         // Midpoints over the sun's place add less than the noise: the sky changes slowly with it.
-        check_z("furnace", sum * 4 * pi / SUNS, sqrt(variance) * 4 * pi / SUNS, seen, 0.01);
+        check_z("furnace", sum * 4 * pi / SUNS, sqrt(variance) * 4 * pi / SUNS, seen, 0.02);
     }
 }
 
