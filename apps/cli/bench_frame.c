@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Milliseconds per ready frame, and where they go.
+#include "bench.h"
+
+#include <stdio.h>
+
+enum { WARM_FRAMES = 3, DEFAULT_RUNS = 15, TIMINGS_MAX = 32 };
+
+static const char *const bare_views[] = {"ground", "limb", "full-disc"};
+static const struct number_size sizes[] = {{1024, 576}, {1920, 1080}};
+enum { SIZE_COUNT = sizeof sizes / sizeof sizes[0] };
+
+// One view at one size.
+struct frame_case {
+    const struct bench_job *job;
+    trl_renderer *renderer;
+    trl_view view;
+    struct number_size size;
+    char name[BENCH_NAME_MAX];
+    bool has_passes; // the renderer measures passes; else whole frames are measured here
+};
+
+static trl_result add_passes(const struct frame_case *c)
+{
+    trl_timing rows[TIMINGS_MAX];
+    const size_t all = trl_renderer_timings(c->renderer, rows, TIMINGS_MAX);
+    const size_t count = all < TIMINGS_MAX ? all : TIMINGS_MAX;
+    trl_result result = TRL_OK;
+    for (size_t i = 0; result == TRL_OK && i < count; i++) {
+        char metric[BENCH_NAME_MAX];
+        snprintf(metric, sizeof metric, "pass %.50s", rows[i].name);
+        result =
+            bench_add(c->job->table, (struct bench_sample){c->name, metric, "ms", rows[i].gpu_ms});
+    }
+    return result;
+}
+
+static trl_result draw_case(const struct frame_case *c)
+{
+    const int runs = bench_runs(c->job, DEFAULT_RUNS);
+    trl_result result = TRL_OK;
+    for (int i = 0; result == TRL_OK && i < WARM_FRAMES + runs; i++) {
+        trl_renderer_wait(c->renderer);
+        const double begun_s = progress_clock_s();
+        result = trl_renderer_draw(c->renderer, &c->view, c->size.width, c->size.height, 0.02);
+        trl_renderer_wait(c->renderer);
+        const double spent_ms = 1e3 * (progress_clock_s() - begun_s);
+        if (!progress_report(&c->job->app->progress, c->name, (double)i / (WARM_FRAMES + runs))) {
+            report_error(EXIT_FAILED, "cancelled while drawing %s", c->name);
+            return TRL_ERROR_CANCELLED;
+        }
+        if (result != TRL_OK || i < WARM_FRAMES) {
+            continue;
+        }
+        result = c->has_passes ? add_passes(c)
+                               : bench_add(c->job->table,
+                                           (struct bench_sample){c->name, "frame", "ms", spent_ms});
+    }
+    return result;
+}
+
+static trl_result draw_view(const struct bench_job *job, const trl_scene *scene, const char *name,
+                            bool has_passes, trl_renderer *renderer)
+{
+    struct frame_case c = {.job = job, .renderer = renderer, .has_passes = has_passes};
+    trl_result result = trl_scene_view(scene, name, &c.view);
+    for (int s = 0; result == TRL_OK && s < SIZE_COUNT; s++) {
+        c.size = sizes[s];
+        snprintf(c.name, sizeof c.name, "%.40s %ux%u", name, c.size.width, c.size.height);
+        result = draw_case(&c);
+    }
+    return result;
+}
+
+// Waiting for each pass takes time of its own, so frames and passes come from two renderers.
+static trl_result draw_views(const struct bench_job *job, const trl_scene *scene, bool has_passes)
+{
+    trl_renderer_desc desc = trl_renderer_desc_default();
+    desc.scene = scene;
+    desc.measures_time = has_passes;
+    trl_renderer *renderer = NULL;
+    trl_result result = trl_renderer_create(job->app->ctx, &desc, &renderer);
+    const size_t count =
+        job->scene ? trl_scene_view_count(scene) : sizeof bare_views / sizeof bare_views[0];
+    for (size_t i = 0; result == TRL_OK && i < count; i++) {
+        const char *name = job->scene ? trl_scene_view_name(scene, i) : bare_views[i];
+        result = draw_view(job, scene, name, has_passes, renderer);
+    }
+    trl_renderer_destroy(&renderer);
+    return result;
+}
+
+trl_result bench_run_sky_frame(const struct bench_job *job)
+{
+    trl_scene *scene = NULL;
+    trl_result result = bench_load_scene(job, "bare-sphere.json", &scene);
+    if (result == TRL_OK) {
+        result = draw_views(job, scene, false);
+    }
+    if (result == TRL_OK) {
+        result = draw_views(job, scene, true);
+    }
+    trl_scene_destroy(&scene);
+    return result;
+}

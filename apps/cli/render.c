@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// terrella render: one picture of a scene.
+#include "app.h"
+#include "commands.h"
+#include "output.h"
+#include "view_options.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <strings.h>
+
+enum { TIMINGS_MAX = 64 };
+static const char default_output[] = "terrella.png";
+
+struct render_arguments {
+    const char *scene;
+    const char *output;
+    struct number_size size;
+    struct view_choice view;
+    bool lists_views;
+    bool shows_timings;
+    bool is_quiet;
+};
+
+enum picture_format { PICTURE_PNG, PICTURE_EXR };
+
+static const char about[] =
+    "Draws SCENE (a JSON file) and writes the picture. Needs neither display nor GPU.\n"
+    "A .png is exposed and tone-mapped; a .exr holds linear light before exposure, in\n"
+    "cd/m2 with sRGB primaries, as 32-bit floats.\n";
+static const char examples[] =
+    "  terrella render scenes/earth.json --view himalaya-morning --size 1920x1080 \\\n"
+    "      -o himalaya.png\n"
+    "  terrella render scenes/earth.json --view orbit --sun-elevation 10 \\\n"
+    "      --sun-azimuth 90 -o orbit.exr\n";
+
+static enum options_outcome read_arguments(int argc, char **argv, struct render_arguments *out)
+{
+    *out = (struct render_arguments){
+        .output = default_output, .size = {1280, 720}, .view = view_choice_default()};
+    const struct option picture[] = {
+        {.name = "output",
+         .letter = 'o',
+         .kind = OPTION_TEXT,
+         .target.text = &out->output,
+         .metavar = "FILE",
+         .help = "Where to write; .png or .exr. Default: terrella.png."},
+        {.name = "size",
+         .kind = OPTION_SIZE,
+         .target.size = &out->size,
+         .metavar = "WxH",
+         .help = "Width and height in pixels. Default: 1280x720."},
+        {.name = "views",
+         .kind = OPTION_FLAG,
+         .target.flag = &out->lists_views,
+         .help = "List the scene's views and draw nothing."},
+        {.name = "timings",
+         .kind = OPTION_FLAG,
+         .target.flag = &out->shows_timings,
+         .help = "Print how long each pass of the frame took."},
+        {.name = "quiet",
+         .letter = 'q',
+         .kind = OPTION_FLAG,
+         .target.flag = &out->is_quiet,
+         .help = "No progress line and no closing line."},
+    };
+    const struct view_options view = view_options_make(&out->view);
+    const struct option_section sections[] = {
+        {"Picture", picture, sizeof picture / sizeof picture[0]},
+        {"Camera", view.camera, VIEW_CAMERA_OPTIONS},
+        {"Sun", view.sun, VIEW_SUN_OPTIONS},
+        {"Exposure", view.exposure, VIEW_EXPOSURE_OPTIONS},
+    };
+    const struct option_spec spec = {.command = "render",
+                                     .positional = "SCENE",
+                                     .min_positionals = 1,
+                                     .max_positionals = 1,
+                                     .about = about,
+                                     .examples = examples,
+                                     .sections = sections,
+                                     .section_count = sizeof sections / sizeof sections[0]};
+    struct option_arguments words;
+    const enum options_outcome outcome = options_read(&spec, argc, argv, &words);
+    out->scene = words.positionals[0];
+    return outcome;
+}
+
+static enum exit_status choose_format(const char *path, enum picture_format *out)
+{
+    const char *suffix = output_suffix(path);
+    if (strcasecmp(suffix, "png") == 0) {
+        *out = PICTURE_PNG;
+        return EXIT_OK;
+    }
+    if (strcasecmp(suffix, "exr") == 0) {
+        *out = PICTURE_EXR;
+        return EXIT_OK;
+    }
+    return report_error(EXIT_USAGE, "render: --output: '%s' ends neither with .png nor with .exr",
+                        path);
+}
+
+static void print_views(const trl_scene *scene)
+{
+    for (size_t i = 0; i < trl_scene_view_count(scene); i++) {
+        printf("%s\n", trl_scene_view_name(scene, i));
+    }
+}
+
+static void print_timings(const trl_renderer *renderer)
+{
+    trl_timing rows[TIMINGS_MAX];
+    const size_t all = trl_renderer_timings(renderer, rows, TIMINGS_MAX);
+    const size_t count = all < TIMINGS_MAX ? all : TIMINGS_MAX;
+    double gpu_ms = 0.0;
+    double cpu_ms = 0.0;
+    printf("%-20s %10s %10s\n", "pass", "GPU ms", "CPU ms");
+    for (size_t i = 0; i < count; i++) {
+        printf("%-20s %10.2f %10.2f\n", rows[i].name, rows[i].gpu_ms, rows[i].cpu_ms);
+        gpu_ms += rows[i].gpu_ms;
+        cpu_ms += rows[i].cpu_ms;
+    }
+    printf("%-20s %10.2f %10.2f\n", "all", gpu_ms, cpu_ms);
+}
+
+// Reads the frame back and writes it.
+static trl_result write_picture(struct app *app, trl_renderer *renderer,
+                                const struct render_arguments *arguments,
+                                enum picture_format format)
+{
+    const struct number_size size = arguments->size;
+    const size_t texels = (size_t)size.width * size.height * 4;
+    void *pixels = malloc(texels * (format == PICTURE_EXR ? sizeof(float) : 1));
+    if (!pixels) {
+        report_error(EXIT_FAILED, "%ux%u: out of memory", size.width, size.height);
+        return TRL_ERROR_MEMORY;
+    }
+    trl_result result = format == PICTURE_EXR ? trl_renderer_read_radiance(renderer, pixels)
+                                              : trl_renderer_read_rgba8(renderer, pixels);
+    if (result == TRL_OK) {
+        result =
+            format == PICTURE_EXR
+                ? trl_image_write_exr(app->ctx, arguments->output, size.width, size.height, pixels)
+                : trl_image_write_png(app->ctx, arguments->output, size.width, size.height, pixels);
+    }
+    free(pixels);
+    return result;
+}
+
+static trl_result draw_picture(struct app *app, const trl_scene *scene, const trl_view *view,
+                               const struct render_arguments *arguments, enum picture_format format)
+{
+    trl_renderer_desc desc = trl_renderer_desc_default();
+    desc.scene = scene;
+    desc.measures_time = arguments->shows_timings;
+    trl_renderer *renderer = NULL;
+    trl_result result = trl_renderer_create(app->ctx, &desc, &renderer);
+    if (result == TRL_OK) {
+        result =
+            trl_renderer_draw(renderer, view, arguments->size.width, arguments->size.height, 0.0);
+    }
+    // The last moment to be stopped: what follows takes no time and writes the file.
+    if (result == TRL_OK && !progress_report(&app->progress, "writing", 0.0)) {
+        report_error(EXIT_FAILED, "cancelled before writing %s", arguments->output);
+        result = TRL_ERROR_CANCELLED;
+    }
+    if (result == TRL_OK) {
+        result = write_picture(app, renderer, arguments, format);
+    }
+    progress_clear(&app->progress);
+    if (result == TRL_OK && arguments->shows_timings) {
+        print_timings(renderer);
+    }
+    trl_renderer_destroy(&renderer);
+    return result;
+}
+
+static enum exit_status render_scene(struct app *app, const trl_scene *scene,
+                                     const struct render_arguments *arguments)
+{
+    enum picture_format format = PICTURE_PNG;
+    trl_view view;
+    enum exit_status status = choose_format(arguments->output, &format);
+    if (status == EXIT_OK) {
+        status = view_choice_apply(&arguments->view, scene, &view);
+    }
+    if (status == EXIT_OK) {
+        status = output_check_writable(arguments->output);
+    }
+    if (status == EXIT_OK) {
+        status = report_result(draw_picture(app, scene, &view, arguments, format));
+    }
+    if (status == EXIT_OK && !arguments->is_quiet) {
+        printf("wrote %s: %ux%u, %.1f s\n", arguments->output, arguments->size.width,
+               arguments->size.height, progress_clock_s() - app->progress.started_s);
+    }
+    return status;
+}
+
+enum exit_status command_render(int argc, char **argv)
+{
+    struct render_arguments arguments;
+    const enum options_outcome outcome = read_arguments(argc, argv, &arguments);
+    if (outcome != OPTIONS_READ) {
+        return outcome == OPTIONS_HELP ? EXIT_OK : EXIT_USAGE;
+    }
+    enum picture_format format = PICTURE_PNG;
+    if (choose_format(arguments.output, &format) != EXIT_OK) {
+        return EXIT_USAGE;
+    }
+    struct app app;
+    enum exit_status status = app_init(&app, &(struct app_desc){.is_quiet = arguments.is_quiet});
+    trl_scene *scene = NULL;
+    if (status == EXIT_OK) {
+        status = report_result(trl_scene_load(app.ctx, arguments.scene, &scene));
+    }
+    if (status == EXIT_OK && arguments.lists_views) {
+        print_views(scene);
+    } else if (status == EXIT_OK) {
+        status = render_scene(&app, scene, &arguments);
+    }
+    trl_scene_destroy(&scene);
+    app_finish(&app);
+    return status;
+}

@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// terrella sky: spectral radiances as numbers. No OpenGL is touched.
+#include "app.h"
+#include "commands.h"
+#include "csv.h"
+#include "output.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// What a query consists of, in the order of the output's columns.
+enum { ALTITUDE, SUN_ZENITH, VIEW_ZENITH, AZIMUTH, WAVELENGTH, PART_COUNT };
+
+struct part {
+    const char *column; // of the CSV
+    const char *option;
+    struct number_range range;
+};
+
+// The tiny wavelength keeps 0 out; there is no light of longer wavelength than a metre to speak of.
+static const struct part parts[PART_COUNT] = {
+    {"altitude_m", "altitude", {0.0, 1e12}},
+    {"sun_zenith_deg", "sun-zenith", {0.0, 180.0}},
+    {"view_zenith_deg", "view-zenith", {0.0, 180.0}},
+    {"azimuth_deg", "azimuth", {-360.0, 360.0}},
+    {"wavelength_nm", "wavelength", {1e-3, 1e9}},
+};
+
+enum { QUERIES_MAX = 10000000 };
+static const double rad_per_deg = 3.14159265358979323846 / 180.0;
+
+struct sky_arguments {
+    const char *scene;
+    struct number_list lists[PART_COUNT];
+    const char *queries; // NULL: the lists
+    const char *output;  // NULL: standard output
+    bool is_quiet;
+};
+
+// The queries, and each number as it was given.
+struct questions {
+    size_t count;
+    trl_sky_query *queries;           // owned
+    const char *(*texts)[PART_COUNT]; // owned; the strings are not
+};
+
+static const char about[] =
+    "Prints the spectral radiance that reaches an observer, as CSV with the column\n"
+    "radiance_W_m2_sr_nm behind those of the query: all orders of scattering, the\n"
+    "ground where the line of sight meets it, no solar disc. The light transport is\n"
+    "solved at exactly the wavelengths asked for.\n"
+    "A LIST is numbers separated by commas; from:to:step stands for a row of them.\n"
+    "All combinations of the lists are answered, wavelengths running fastest.\n";
+static const char examples[] =
+    "  terrella sky scenes/earth.json --altitude 0 --sun-zenith 60 \\\n"
+    "      --view-zenith 0:90:10 --azimuth 0,180 --wavelength 450,550,650\n"
+    "  terrella sky scenes/earth.json --queries questions.csv -o answers.csv\n";
+
+static const char *const helps[PART_COUNT] = {
+    "Of the observer above the reference sphere; may be above the atmosphere.",
+    "Of the sun's centre: 0 overhead, above 90 below the horizontal.",
+    "Of the line of sight: 0 is up, above 90 looks down.",
+    "Of the line of sight: 0 is toward the sun.",
+    "Of the light.",
+};
+static const char *const metavars[PART_COUNT] = {"M", "DEG", "LIST", "LIST", "LIST"};
+
+static enum options_outcome read_arguments(int argc, char **argv, struct sky_arguments *out)
+{
+    *out = (struct sky_arguments){0};
+    struct option query[PART_COUNT + 1];
+    for (int i = 0; i < PART_COUNT; i++) {
+        query[i] = (struct option){.name = parts[i].option,
+                                   .kind = OPTION_LIST,
+                                   .target.list = &out->lists[i],
+                                   .metavar = metavars[i],
+                                   .range = parts[i].range,
+                                   .help = helps[i]};
+    }
+    query[PART_COUNT] =
+        (struct option){.name = "queries",
+                        .kind = OPTION_TEXT,
+                        .target.text = &out->queries,
+                        .metavar = "FILE.csv",
+                        .help = "Instead of all these: a table with the columns altitude_m, "
+                                "sun_zenith_deg, view_zenith_deg, azimuth_deg, wavelength_nm in "
+                                "any order, one query a row; - reads standard input."};
+    const struct option result[] = {
+        {.name = "output",
+         .letter = 'o',
+         .kind = OPTION_TEXT,
+         .target.text = &out->output,
+         .metavar = "FILE",
+         .help = "Where to write. Default: standard output."},
+        {.name = "quiet",
+         .letter = 'q',
+         .kind = OPTION_FLAG,
+         .target.flag = &out->is_quiet,
+         .help = "No progress line."},
+    };
+    const struct option_section sections[] = {{"Query", query, PART_COUNT + 1},
+                                              {"Result", result, 2}};
+    const struct option_spec spec = {.command = "sky",
+                                     .positional = "SCENE",
+                                     .min_positionals = 1,
+                                     .max_positionals = 1,
+                                     .about = about,
+                                     .examples = examples,
+                                     .sections = sections,
+                                     .section_count = 2};
+    struct option_arguments words;
+    const enum options_outcome outcome = options_read(&spec, argc, argv, &words);
+    out->scene = words.positionals[0];
+    return outcome;
+}
+
+static void finish_arguments(struct sky_arguments *arguments)
+{
+    for (int i = 0; i < PART_COUNT; i++) {
+        number_list_finish(&arguments->lists[i]);
+    }
+}
+
+static enum exit_status allocate_questions(size_t count, struct questions *out)
+{
+    if (count > QUERIES_MAX) {
+        return report_error(EXIT_USAGE, "sky: %zu queries are more than %d", count, QUERIES_MAX);
+    }
+    *out = (struct questions){.count = count};
+    out->queries = calloc(count + 1, sizeof *out->queries);
+    out->texts = calloc(count + 1, sizeof *out->texts);
+    if (out->queries && out->texts) {
+        return EXIT_OK;
+    }
+    return report_error(EXIT_FAILED, "sky: no memory for %zu queries", count);
+}
+
+static void finish_questions(struct questions *questions)
+{
+    free(questions->queries);
+    free(questions->texts);
+    *questions = (struct questions){0};
+}
+
+static trl_sky_query make_query(const double values[PART_COUNT])
+{
+    return (trl_sky_query){.altitude_m = values[ALTITUDE],
+                           .sun_zenith_rad = values[SUN_ZENITH] * rad_per_deg,
+                           .view_zenith_rad = values[VIEW_ZENITH] * rad_per_deg,
+                           .azimuth_rad = values[AZIMUTH] * rad_per_deg,
+                           .wavelength_nm = values[WAVELENGTH]};
+}
+
+// Every combination of the lists, the last one running fastest.
+static enum exit_status combine_lists(const struct sky_arguments *arguments, struct questions *out)
+{
+    size_t count = 1;
+    for (int i = 0; i < PART_COUNT; i++) {
+        if (arguments->lists[i].count == 0) {
+            return report_error(EXIT_USAGE,
+                                "sky: --%s (or --queries) is missing; see terrella sky "
+                                "--help",
+                                parts[i].option);
+        }
+        count *= arguments->lists[i].count;
+        count = count > QUERIES_MAX ? QUERIES_MAX + 1 : count; // keeps the product from overflowing
+    }
+    const enum exit_status status = allocate_questions(count, out);
+    for (size_t q = 0; status == EXIT_OK && q < count; q++) {
+        double values[PART_COUNT];
+        size_t rest = q;
+        for (int i = PART_COUNT - 1; i >= 0; i--) {
+            const struct number_list *list = &arguments->lists[i];
+            const struct number_item *item = &list->items[rest % list->count];
+            rest /= list->count;
+            values[i] = item->value;
+            out->texts[q][i] = item->text;
+        }
+        out->queries[q] = make_query(values);
+    }
+    return status;
+}
+
+static enum exit_status read_row(const struct csv_table *table, size_t row,
+                                 const size_t columns[PART_COUNT], struct questions *out)
+{
+    double values[PART_COUNT];
+    for (int i = 0; i < PART_COUNT; i++) {
+        const char *text = csv_field(table, row, columns[i]);
+        struct number_message message;
+        if (!number_parse_in(text, parts[i].range, &values[i], &message)) {
+            return report_error(EXIT_FAILED, "%s:%zu: %s: %s", table->name, table->lines[row],
+                                parts[i].column, message.text);
+        }
+        out->texts[row][i] = text;
+    }
+    out->queries[row] = make_query(values);
+    return EXIT_OK;
+}
+
+static enum exit_status read_table(const struct csv_table *table, struct questions *out)
+{
+    size_t columns[PART_COUNT];
+    enum exit_status status = EXIT_OK;
+    for (int i = 0; status == EXIT_OK && i < PART_COUNT; i++) {
+        status = csv_find_column(table, parts[i].column, &columns[i]);
+    }
+    if (status == EXIT_OK) {
+        status = allocate_questions(table->row_count, out);
+    }
+    for (size_t row = 0; status == EXIT_OK && row < table->row_count; row++) {
+        status = read_row(table, row, columns, out);
+    }
+    return status;
+}
+
+static void print_answers(FILE *stream, const struct questions *questions, const double *radiance)
+{
+    for (int i = 0; i < PART_COUNT; i++) {
+        fprintf(stream, "%s,", parts[i].column);
+    }
+    fprintf(stream, "radiance_W_m2_sr_nm\n");
+    for (size_t q = 0; q < questions->count; q++) {
+        for (int i = 0; i < PART_COUNT; i++) {
+            fprintf(stream, "%s,", questions->texts[q][i]);
+        }
+        fprintf(stream, "%.9g\n", radiance[q]);
+    }
+}
+
+static enum exit_status solve(struct app *app, const char *scene_path,
+                              const struct questions *questions, double *radiance)
+{
+    trl_scene *scene = NULL;
+    trl_result result = trl_scene_load(app->ctx, scene_path, &scene);
+    if (result == TRL_OK && questions->count > 0) {
+        result = trl_sky_radiance(app->ctx, scene, questions->queries, questions->count, radiance);
+    }
+    trl_scene_destroy(&scene);
+    return report_result(result);
+}
+
+static enum exit_status answer(struct app *app, const struct sky_arguments *arguments,
+                               const struct questions *questions)
+{
+    struct output_text output = {0};
+    double *radiance = calloc(questions->count + 1, sizeof *radiance);
+    enum exit_status status =
+        radiance ? EXIT_OK
+                 : report_error(EXIT_FAILED, "sky: no memory for %zu queries", questions->count);
+    if (status == EXIT_OK) {
+        status = output_text_begin(arguments->output, &output);
+    }
+    if (status == EXIT_OK) {
+        status = solve(app, arguments->scene, questions, radiance);
+    }
+    if (status == EXIT_OK) {
+        progress_clear(&app->progress);
+        print_answers(output.stream, questions, radiance);
+        status = output_text_commit(&output);
+    }
+    output_text_abort(&output);
+    free(radiance);
+    return status;
+}
+
+static enum exit_status run(struct app *app, const struct sky_arguments *arguments)
+{
+    struct questions questions = {0};
+    struct csv_table table = {0};
+    enum exit_status status = EXIT_OK;
+    if (arguments->queries) {
+        status = csv_read(arguments->queries, &table);
+        status = status == EXIT_OK ? read_table(&table, &questions) : status;
+    } else {
+        status = combine_lists(arguments, &questions);
+    }
+    if (status == EXIT_OK) {
+        status = answer(app, arguments, &questions);
+    }
+    finish_questions(&questions);
+    csv_finish(&table);
+    return status;
+}
+
+static enum exit_status check_arguments(const struct sky_arguments *arguments)
+{
+    for (int i = 0; arguments->queries && i < PART_COUNT; i++) {
+        if (arguments->lists[i].count > 0) {
+            return report_error(EXIT_USAGE, "sky: --queries and --%s cannot both be given",
+                                parts[i].option);
+        }
+    }
+    return EXIT_OK;
+}
+
+enum exit_status command_sky(int argc, char **argv)
+{
+    struct sky_arguments arguments;
+    const enum options_outcome outcome = read_arguments(argc, argv, &arguments);
+    enum exit_status status = outcome == OPTIONS_WRONG ? EXIT_USAGE : EXIT_OK;
+    if (outcome == OPTIONS_READ) {
+        status = check_arguments(&arguments);
+    }
+    if (outcome == OPTIONS_READ && status == EXIT_OK) {
+        struct app app;
+        status = app_init(&app, &(struct app_desc){.is_quiet = arguments.is_quiet});
+        status = status == EXIT_OK ? run(&app, &arguments) : status;
+        app_finish(&app);
+    }
+    finish_arguments(&arguments);
+    return status;
+}

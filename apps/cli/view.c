@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// terrella view: the window. The flying itself is in apps/viewer.
+#include "app.h"
+#include "commands.h"
+#include "interrupt.h"
+#include "output.h"
+#include "view_options.h"
+#include "viewer/viewer.h"
+
+#include <strings.h>
+
+struct view_arguments {
+    const char *scene;
+    const char *screenshot;
+    struct number_size size;
+    struct option_number frames;
+    struct view_choice view;
+    bool is_quiet;
+};
+
+static const char about[] =
+    "Opens SCENE in a window and flies through it, from orbit to the ground.\n\n" VIEWER_KEYS;
+static const char examples[] =
+    "  terrella view scenes/earth.json --view himalaya-morning\n"
+    "  xvfb-run terrella view scenes/earth.json --frames 1 --screenshot window.png\n";
+
+static enum options_outcome read_arguments(int argc, char **argv, struct view_arguments *out)
+{
+    *out = (struct view_arguments){.size = {1280, 720}, .view = view_choice_default()};
+    const struct option window[] = {
+        {.name = "size",
+         .kind = OPTION_SIZE,
+         .target.size = &out->size,
+         .metavar = "WxH",
+         .help = "Width and height of the window in pixels. Default: 1280x720."},
+        {.name = "frames",
+         .kind = OPTION_NUMBER,
+         .target.number = &out->frames,
+         .metavar = "N",
+         .range = {1.0, 1e9},
+         .is_whole = true,
+         .help = "Quit after N frames. Default: never."},
+        {.name = "screenshot",
+         .kind = OPTION_TEXT,
+         .target.text = &out->screenshot,
+         .metavar = "FILE.png",
+         .help = "Write the last frame before quitting; without --frames the first one is the "
+                 "last."},
+        {.name = "quiet",
+         .letter = 'q',
+         .kind = OPTION_FLAG,
+         .target.flag = &out->is_quiet,
+         .help = "No progress line."},
+    };
+    const struct view_options view = view_options_make(&out->view);
+    const struct option_section sections[] = {
+        {"Window", window, sizeof window / sizeof window[0]},
+        {"Camera", view.camera, VIEW_CAMERA_OPTIONS},
+        {"Sun", view.sun, VIEW_SUN_OPTIONS},
+        {"Exposure", view.exposure, VIEW_EXPOSURE_OPTIONS},
+    };
+    const struct option_spec spec = {.command = "view",
+                                     .positional = "SCENE",
+                                     .min_positionals = 1,
+                                     .max_positionals = 1,
+                                     .about = about,
+                                     .examples = examples,
+                                     .sections = sections,
+                                     .section_count = sizeof sections / sizeof sections[0]};
+    struct option_arguments words;
+    const enum options_outcome outcome = options_read(&spec, argc, argv, &words);
+    out->scene = words.positionals[0];
+    return outcome;
+}
+
+static enum exit_status check_screenshot(const char *path)
+{
+    if (!path) {
+        return EXIT_OK;
+    }
+    if (strcasecmp(output_suffix(path), "png") != 0) {
+        return report_error(EXIT_USAGE, "view: --screenshot: '%s' does not end with .png", path);
+    }
+    return output_check_writable(path);
+}
+
+static enum exit_status open_window(struct app *app, const struct view_arguments *arguments)
+{
+    trl_scene *scene = NULL;
+    trl_view view;
+    enum exit_status status = report_result(trl_scene_load(app->ctx, arguments->scene, &scene));
+    if (status == EXIT_OK) {
+        status = view_choice_apply(&arguments->view, scene, &view);
+    }
+    if (status == EXIT_OK) {
+        const double frames = arguments->frames.is_given ? arguments->frames.value : 0.0;
+        struct viewer_desc desc = {.ctx = app->ctx,
+                                   .scene = scene,
+                                   .view = view,
+                                   .width = arguments->size.width,
+                                   .height = arguments->size.height,
+                                   .frame_limit = (uint64_t)frames,
+                                   .screenshot = arguments->screenshot,
+                                   .is_stopped = interrupt_is_pending};
+        if (desc.screenshot && desc.frame_limit == 0) {
+            desc.frame_limit = 1;
+        }
+        char message[VIEWER_MESSAGE_MAX] = "";
+        const trl_result result = viewer_run(&desc, message);
+        progress_clear(&app->progress);
+        status = *message ? report_error(EXIT_FAILED, "%s", message) : report_result(result);
+    }
+    trl_scene_destroy(&scene);
+    return status;
+}
+
+enum exit_status command_view(int argc, char **argv)
+{
+    struct view_arguments arguments;
+    const enum options_outcome outcome = read_arguments(argc, argv, &arguments);
+    if (outcome != OPTIONS_READ) {
+        return outcome == OPTIONS_HELP ? EXIT_OK : EXIT_USAGE;
+    }
+    enum exit_status status = check_screenshot(arguments.screenshot);
+    if (status != EXIT_OK) {
+        return status;
+    }
+    struct app app;
+    status = app_init(&app, &(struct app_desc){.is_quiet = arguments.is_quiet});
+    if (status == EXIT_OK) {
+        status = open_window(&app, &arguments);
+    }
+    app_finish(&app);
+    return status;
+}

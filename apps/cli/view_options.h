@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef CLI_VIEW_OPTIONS_H
+#define CLI_VIEW_OPTIONS_H
+// The options with which a picture's camera, sun and exposure are chosen: a view of the scene, and
+// what replaces parts of it. Shared by the commands that draw.
+
+#include "options.h"
+#include <terrella/scene.h>
+
+// What was given; start from view_choice_default().
+struct view_choice {
+    const char *name; // NULL: the scene's first view
+    struct option_number latitude_deg, longitude_deg, altitude_m, height_m;
+    struct option_number heading_deg, pitch_deg, roll_deg, fov_deg;
+    struct option_number sun_elevation_deg, sun_azimuth_deg;
+    struct option_number subsolar_latitude_deg, subsolar_longitude_deg;
+    struct option_number ev100, bias_ev;
+    int tone; // index of the word; -1: as in the view
+};
+
+enum { VIEW_CAMERA_OPTIONS = 9, VIEW_SUN_OPTIONS = 4, VIEW_EXPOSURE_OPTIONS = 3 };
+
+struct view_options {
+    struct option camera[VIEW_CAMERA_OPTIONS];
+    struct option sun[VIEW_SUN_OPTIONS];
+    struct option exposure[VIEW_EXPOSURE_OPTIONS];
+};
+
+struct view_choice view_choice_default(void);
+
+// The tables of options that fill `choice`.
+struct view_options view_options_make(struct view_choice *choice);
+
+// The scene's view of that name with what was given on the command line. EXIT_USAGE (reported) when
+// there is no such view or the options contradict each other.
+enum exit_status view_choice_apply(const struct view_choice *choice, const trl_scene *scene,
+                                   trl_view *out);
+
+#endif // CLI_VIEW_OPTIONS_H
