@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// The GPU's float and C's double agree on the formulas that are one text for both.
+#include "fixture.h"
+
+#include "shared/phase.glsl"
+#include "shared/profile.glsl"
+
+#include <math.h>
+
+// A float has 6e-8; a dozen operations, and an exp that drivers may take to a few parts in a
+// million.
+#define AGREEMENT 5e-6
+
+static struct texel draw(struct fixture *f, struct gpu_program *program)
+{
+    const struct gpu_pass pass = {.target = &f->target};
+    gpu_pass_begin(f->gpu, &pass);
+    assert_int_equal(gpu_draw_fullscreen(program, "formulas"), TRL_OK);
+    return fixture_read(&f->color, 0, 0);
+}
+
+static void assert_agree(float got, double wanted)
+{
+    const double error = fabs((double)got - wanted);
+    if (!(error <= AGREEMENT * fabs(wanted))) {
+        fail_msg("GPU %.9g, C %.17g", (double)got, wanted);
+    }
+}
+
+static struct gpu_program make_program(struct fixture *f)
+{
+    const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+                                          .fragment = "formulas.frag"};
+    struct gpu_program program;
+    assert_int_equal(gpu_program_init(f->gpu, &desc, &program), TRL_OK);
+    return program;
+}
+
+static void phase_functions_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    const float g[] = {-0.9f, -0.3f, 0, 0.5f, 0.76f, 0.99f, 0.9999f};
+    const float nu[] = {-1, -0.99f, -0.5f, 0, 0.3f, 0.9f, 0.999f, 1};
+    for (size_t i = 0; i < sizeof g / sizeof g[0]; i++) {
+        for (size_t j = 0; j < sizeof nu / sizeof nu[0]; j++) {
+            const float angle[4] = {nu[j], g[i], 0, 0};
+            gpu_program_set_vec4(&program, "u_angle", angle);
+            const struct texel got = draw(f, &program);
+            const double cosine = (double)nu[j];
+            const double asymmetry = (double)g[i];
+            assert_agree(got.rgba[0], phase_isotropic());
+            assert_agree(got.rgba[1], phase_rayleigh(cosine));
+            assert_agree(got.rgba[2], phase_henyey_greenstein(cosine, asymmetry));
+            assert_agree(got.rgba[3], phase_cornette_shanks(cosine, asymmetry));
+        }
+    }
+    gpu_program_finish(&program);
+}
+
+static void profiles_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    gpu_program_set_float(&program, "u_wants_profile", 1);
+    const float altitude[] = {0, 100, 8000, 20000, 30000, 50000};
+    for (size_t i = 0; i < sizeof altitude / sizeof altitude[0]; i++) {
+        const float shell[4] = {altitude[i], 8000, 25000, 15000};
+        gpu_program_set_vec4(&program, "u_shell", shell);
+        const struct texel got = draw(f, &program);
+        assert_agree(got.rgba[0], profile_exponential((double)altitude[i], 8000));
+        assert_agree(got.rgba[1], profile_tent((double)altitude[i], 25000, 15000));
+    }
+    gpu_program_finish(&program);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(phase_functions_agree),
+        cmocka_unit_test(profiles_agree),
+    };
+    return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
+}
