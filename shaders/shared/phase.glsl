@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Phase functions: which share of scattered light goes into a direction, per steradian.
-// Quantities: nu = cosine of the scattering angle (1 is straight on), g = mean of nu over the scattered light.
-// Valid for nu in [-1, 1] and g in (-1, 1). Each integrates to 1 over the sphere.
+// Quantities: nu = cosine of the scattering angle (1 is straight on), g = mean of nu over the
+// scattered light. Valid for nu in [-1, 1] and g in (-1, 1). Each integrates to 1 over the sphere.
 // Compiled as C and as GLSL.
 #ifndef SHARED_PHASE_GLSL
 #define SHARED_PHASE_GLSL

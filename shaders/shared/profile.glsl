@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 //
-// Density profiles: how much of a constituent there is at an altitude, relative to its reference density.
-// Quantities: altitude above the reference sphere, scale height, centre and half width in metres.
-// Valid for any altitude, scale height > 0, half width > 0.
-// Compiled as C and as GLSL.
+// Density profiles: how much of a constituent there is at an altitude, relative to its reference
+// density. Quantities: altitude above the reference sphere, scale height, centre and half width in
+// metres. Valid for any altitude, scale height > 0, half width > 0. Compiled as C and as GLSL.
 #ifndef SHARED_PROFILE_GLSL
 #define SHARED_PROFILE_GLSL
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/node.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 #include <math.h>
-#include <string.h>
 
 #include "scene/read.h"
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-#include <math.h>
-
 #include "base/file.h"
 #include "scene/read.h"
 #include "spectrum/cie.h"

@@ -8,7 +8,6 @@
 #include <cmocka.h>
 
 #include <math.h>
-#include <string.h>
 
 #include "log.h"
 #include "spectrum/cie.h"
