@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// One texel a vertex of the hemisphere mesh: xyz = position less the anchor's on the reference
+// sphere, planet axes, m; w = altitude, m. Drawn once for each projection camera.
+#include "shared/hemisphere.glsl"
+#include "terrain/layers.glsl"
+
+uniform vec4 u_grid; // cells to a side, power of the warp, lift (z_s)
+uniform mat3 u_planet_from_local;
+
+out vec4 o_position;
+
+vec3 grid_direction(vec2 g)
+{
+    LocalDirection d = hemisphere_direction(g.x, g.y, u_grid.y, u_grid.z);
+    return vec3(d.x, d.y, d.z);
+}
+
+void main()
+{
+    vec2 g = 2.0 * floor(gl_FragCoord.xy) / u_grid.x - 1.0;
+    vec3 o = grid_direction(g);
+    // A cell's longer side, toward the next ring: what is smaller than half of it would alias.
+    vec2 next = g * (1.0 + 2.0 / (u_grid.x * max(max(abs(g.x), abs(g.y)), 1.0 / u_grid.x)));
+    float cell = length(grid_direction(next) - o) * u_anchor.w;
+    float h = terrain_altitude(geo_from_local(o, 1.0), log2(0.5 * cell));
+    vec3 offset = o * u_anchor.w + (o + vec3(0.0, 0.0, 1.0)) * h;
+    o_position = vec4(u_planet_from_local * offset, h);
+}

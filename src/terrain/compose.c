@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "terrain/compose.h"
+
+#include "gpu/pass.h"
+
+#include <math.h>
+
+// A layer that covers fewer pixels than this is left out.
+static const double LEAST_PIXELS = 3;
+
+trl_result terrain_compose_init(const struct surface *surface, struct terrain_compose *out)
+{
+    *out = (struct terrain_compose){.gpu = surface->gpu, .surface = surface};
+    trl_result result = TRL_OK;
+    for (size_t i = 0; i <= surface->counts[SURFACE_ELEVATION] && result == TRL_OK; i++) {
+        struct surface_defines defines;
+        surface_get_defines(surface, i, &defines);
+        const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+                                              .fragment = "terrain/surface.frag",
+                                              .defines = defines.list,
+                                              .define_count = defines.count};
+        result = gpu_program_init(out->gpu, &desc, &out->programs[i]);
+    }
+    if (result != TRL_OK) {
+        terrain_compose_finish(out);
+    }
+    return result;
+}
+
+void terrain_compose_finish(struct terrain_compose *compose)
+{
+    for (size_t i = 0; i <= SURFACE_MAX_LAYERS; i++) {
+        gpu_program_finish(&compose->programs[i]);
+    }
+    *compose = (struct terrain_compose){0};
+}
+
+// Whether a layer reaches over the horizon and is more than a dot.
+static bool is_layer_in_view(const struct layer_frame *f, const struct terrain_compose_inputs *in,
+                             double radius_m)
+{
+    if (f->is_whole_circle) {
+        return true;
+    }
+    const struct projection *p = &in->shadow->projection;
+    const struct vec3 middle = vec3_from_lat_lon(f->centre_latitude, f->centre_longitude);
+    const double away = acos(fmax(-1, fmin(1, vec3_dot(middle, p->anchor.up))));
+    const double half = hypot(f->half_width, f->half_height);
+    const double nearest = fmax(p->height_m, (away - half) * radius_m);
+    const double pixel = 2 * in->camera->tan_half_fov_y / in->position->height;
+    return away - half < p->reach_rad && 2 * half * radius_m > LEAST_PIXELS * pixel * nearest;
+}
+
+static size_t count_elevations(const struct surface *surface,
+                               const struct terrain_compose_inputs *in)
+{
+    size_t count = surface->counts[SURFACE_ELEVATION];
+    while (count > 0 && !is_layer_in_view(&surface->layers[SURFACE_ELEVATION][count - 1].frame, in,
+                                          surface->radius_m)) {
+        count--;
+    }
+    return count;
+}
+
+trl_result terrain_compose_draw(struct terrain_compose *compose,
+                                const struct terrain_compose_inputs *in,
+                                const struct gpu_target *target)
+{
+    const struct surface *surface = compose->surface;
+    struct gpu_program *program = &compose->programs[count_elevations(surface, in)];
+    const struct anchor anchor = anchor_below(in->camera->position_m);
+    float local_from_planet[9];
+    anchor_local_from_planet(&anchor, local_from_planet);
+    const float view[4] = {(float)vec3_length(in->camera->position_m),
+                           (float)(2 * in->camera->tan_half_fov_y / in->position->height), 0, 0};
+    surface_bind(surface, &anchor, program);
+    terrain_shadow_bind(in->shadow, in->camera, program);
+    gpu_program_set_texture(program, "u_position", in->position);
+    gpu_program_set_mat3(program, "u_local_from_planet", local_from_planet);
+    gpu_program_set_vec4(program, "u_view", view);
+    gpu_program_set_vec3(program, "u_default_albedo", surface->default_albedo);
+    const struct gpu_pass pass = {.target = target};
+    gpu_pass_begin(compose->gpu, &pass);
+    return gpu_draw_fullscreen(program, "terrain surface");
+}

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef TERRAIN_COMPOSE_H
+#define TERRAIN_COMPOSE_H
+// Deferred texturing: per pixel of a position target, the ground's colour, normal, shadow and
+// lights, from all layers.
+
+#include "gpu/target.h"
+#include "terrain/shadow.h"
+
+struct terrain_compose {
+    struct gpu *gpu;
+    const struct surface *surface;
+    // One for each number of elevation layers that are looked at: insets out of sight cost nothing.
+    struct gpu_program programs[SURFACE_MAX_LAYERS + 1];
+};
+
+// TRL_ERROR_GPU; TRL_ERROR_MEMORY. Must not outlive the surface.
+TRL_MUST_USE trl_result terrain_compose_init(const struct surface *surface,
+                                             struct terrain_compose *out);
+void terrain_compose_finish(struct terrain_compose *compose);
+
+struct terrain_compose_inputs {
+    const struct camera *camera;
+    const struct gpu_texture *position;  // drawn by a mesher for that camera
+    const struct terrain_shadow *shadow; // updated for it
+};
+
+// Draws all of `target`, of the position's size:
+// color 0, RGBA8: square root of the linear albedo, and the part of it that is water;
+// color 1, RGBA16F or RGBA32F: unit normal in the planet frame, and the part of the sun that the
+// terrain leaves visible (not the planet's curve, not the air);
+// color 2, RGBA8: square root of the night lights, linear, 1 where the picture is white; alpha 1.
+// All 0 where there is no ground.
+TRL_MUST_USE trl_result terrain_compose_draw(struct terrain_compose *compose,
+                                             const struct terrain_compose_inputs *inputs,
+                                             const struct gpu_target *target);
+
+#endif // TERRAIN_COMPOSE_H

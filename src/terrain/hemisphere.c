@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// The hemisphere mesher, Michelic 2019, Section 3: a square grid seen from the planet's centre,
+// facing the camera, that reaches the highest mountain beyond the horizon. It differs from the
+// paper in three ways. Rings of the grid are drawn toward the camera's ground point by a power law,
+// which takes the place of tessellation. Vertices are made once for a projection camera, by a
+// fragment pass into a texture (resources: u_positions, RGBA32F, cells + 1 to a side), since vertex
+// shaders are slow in software. The frustum and the horizon cull chunks of the grid on the CPU.
+#include "terrain/mesher.h"
+
+#include "gpu/mesh.h"
+#include "gpu/pass.h"
+#include "shared/hemisphere.glsl"
+#include "terrain/projection.h"
+
+#include <math.h>
+
+// CELLS to a side of the grid in chunks of CHUNK_CELLS: a sixth of it, as much as a view of 60
+// degrees along the ground sees, is 140 thousand triangles.
+enum {
+    CELLS = 640,
+    CHUNK_CELLS = 16,
+    CHUNK_ROW = CELLS / CHUNK_CELLS,
+    CHUNKS = CHUNK_ROW * CHUNK_ROW
+};
+// Half as far out as this many rings is the camera's height above the ground.
+static const double RING_AT_HEIGHT = 60;
+static const double NEAREST_M = 3; // no terrain needs vertices closer than a part of this
+// Above this part of the radius, the whole cap is seen at once and every other vertex is enough.
+static const double COARSE_FROM_RADIUS = 0.05;
+
+// What must be in view for a chunk to be drawn.
+struct chunk {
+    struct vec3 direction; // unit, of its middle
+    double angle_rad;      // its farthest vertex from there
+    double max_altitude_m;
+    struct vec3 centre_m; // of a ball around it
+    double radius_m;
+};
+
+struct hemisphere {
+    struct mesher base;
+    struct gpu *gpu;
+    const struct surface *surface;
+    struct projection projection;
+    double power;
+    bool is_coarse;
+    struct camera camera;
+    struct chunk chunks[CHUNKS];
+    struct gpu_texture positions;
+    struct gpu_target target;
+    struct gpu_program grid_program, mesh_program;
+    struct gpu_mesh fine, coarse;
+};
+
+static void put_cell(uint32_t *indices, uint32_t x, uint32_t y, uint32_t step)
+{
+    const uint32_t side = CELLS + 1;
+    const uint32_t a = y * side + x;
+    const uint32_t b = a + step;
+    const uint32_t d = a + step * side;
+    const uint32_t c = d + step;
+    // The diagonal runs away from the middle, so that all quadrants look alike.
+    const bool is_rising = (x < CELLS / 2) == (y < CELLS / 2);
+    const uint32_t rising[6] = {a, b, c, a, c, d};
+    const uint32_t falling[6] = {a, b, d, b, c, d};
+    for (int i = 0; i < 6; i++) {
+        indices[i] = is_rising ? rising[i] : falling[i];
+    }
+}
+
+static uint32_t chunk_indices(uint32_t step)
+{
+    return (CHUNK_CELLS / step) * (CHUNK_CELLS / step) * 6;
+}
+
+// Indices, chunk after chunk, of every `step`-th vertex.
+static trl_result make_mesh(struct hemisphere *h, uint32_t step, struct gpu_mesh *out)
+{
+    const uint32_t count = CHUNKS * chunk_indices(step);
+    uint32_t *indices = mem_alloc(h->gpu->ctx, count, sizeof *indices);
+    if (!indices) {
+        return TRL_ERROR_MEMORY;
+    }
+    uint32_t *to = indices;
+    for (uint32_t chunk = 0; chunk < CHUNKS; chunk++) {
+        const uint32_t x0 = chunk % CHUNK_ROW * CHUNK_CELLS;
+        const uint32_t y0 = chunk / CHUNK_ROW * CHUNK_CELLS;
+        for (uint32_t y = y0; y < y0 + CHUNK_CELLS; y += step) {
+            for (uint32_t x = x0; x < x0 + CHUNK_CELLS; x += step, to += 6) {
+                put_cell(to, x, y, step);
+            }
+        }
+    }
+    const struct gpu_mesh_desc desc = {.label = "hemisphere",
+                                       .primitive = GPU_PRIMITIVE_TRIANGLES,
+                                       .vertex_count = (CELLS + 1) * (CELLS + 1),
+                                       .index_count = count,
+                                       .indices = indices};
+    const trl_result result = gpu_mesh_init(h->gpu, &desc, out);
+    mem_free(h->gpu->ctx, indices);
+    return result;
+}
+
+static trl_result make_programs(struct hemisphere *h)
+{
+    struct surface_defines defines;
+    surface_get_defines(h->surface, h->surface->counts[SURFACE_ELEVATION], &defines);
+    const struct gpu_program_desc grid = {.vertex = "lib/fullscreen.vert",
+                                          .fragment = "terrain/grid.frag",
+                                          .defines = defines.list,
+                                          .define_count = defines.count};
+    const struct gpu_program_desc mesh = {.vertex = "terrain/mesh.vert",
+                                          .fragment = "terrain/mesh.frag"};
+    const trl_result result = gpu_program_init(h->gpu, &grid, &h->grid_program);
+    return result == TRL_OK ? gpu_program_init(h->gpu, &mesh, &h->mesh_program) : result;
+}
+
+static trl_result make_target(struct hemisphere *h)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "hemisphere vertices";
+    desc.format = GPU_FORMAT_RGBA32F;
+    desc.filter = GPU_FILTER_NEAREST;
+    desc.width = desc.height = CELLS + 1;
+    trl_result result = gpu_texture_init(h->gpu, &desc, &h->positions);
+    if (result == TRL_OK) {
+        const struct gpu_target_desc target = {.label = "hemisphere vertices",
+                                               .color_count = 1,
+                                               .colors = {{.texture = &h->positions}}};
+        result = gpu_target_init(h->gpu, &target, &h->target);
+    }
+    return result;
+}
+
+static struct vec3 grid_direction(const struct hemisphere *h, double x, double y)
+{
+    const LocalDirection d =
+        hemisphere_direction(2 * x / CELLS - 1, 2 * y / CELLS - 1, h->power, h->projection.lift);
+    return (struct vec3){d.x, d.y, d.z + 1};
+}
+
+// A ball around the shell between two radii and within an angle of an axis: its middle lies on the
+// axis, and one of the shell's corners or poles is the farthest.
+static void bound_chunk(struct chunk *c, double low_m, double high_m)
+{
+    const double cosine = cos(c->angle_rad);
+    const double sine = sin(c->angle_rad);
+    const double middle = (low_m * cosine + high_m) / 2;
+    const double top = hypot(high_m * cosine - middle, high_m * sine);
+    const double bottom = hypot(low_m * cosine - middle, low_m * sine);
+    c->radius_m = fmax(fmax(top, bottom), high_m - middle);
+    c->centre_m = vec3_scale(c->direction, middle);
+}
+
+static void place_chunk(struct hemisphere *h, uint32_t index)
+{
+    enum { STEPS = 4 };
+    const double x0 = index % CHUNK_ROW * (double)CHUNK_CELLS;
+    const double y0 = index / CHUNK_ROW * (double)CHUNK_CELLS;
+    const struct vec3 middle = grid_direction(h, x0 + CHUNK_CELLS / 2.0, y0 + CHUNK_CELLS / 2.0);
+    double chord = 0;
+    for (int i = 0; i < (STEPS + 1) * (STEPS + 1); i++) {
+        const double x = x0 + i % (STEPS + 1) * (double)CHUNK_CELLS / STEPS;
+        const double y = y0 + i / (STEPS + 1) * (double)CHUNK_CELLS / STEPS;
+        chord = fmax(chord, vec3_length(vec3_sub(grid_direction(h, x, y), middle)));
+    }
+    struct chunk *c = &h->chunks[index];
+    c->direction = anchor_planet(&h->projection.anchor, middle);
+    // Rings are squares from the centre and bend between the samples: 2 % more is ample.
+    c->angle_rad = 1.02 * 2 * asin(fmin(1, chord / 2));
+    const struct surface_bounds b = surface_bounds_around(h->surface, c->direction, c->angle_rad);
+    c->max_altitude_m = (double)b.max;
+    bound_chunk(c, h->surface->radius_m + (double)b.min, h->surface->radius_m + (double)b.max);
+}
+
+static trl_result draw_grid(struct hemisphere *h)
+{
+    const float grid[4] = {CELLS, (float)h->power, (float)h->projection.lift, 0};
+    float planet_from_local[9];
+    anchor_planet_from_local(&h->projection.anchor, planet_from_local);
+    surface_bind(h->surface, &h->projection.anchor, &h->grid_program);
+    gpu_program_set_vec4(&h->grid_program, "u_grid", grid);
+    gpu_program_set_mat3(&h->grid_program, "u_planet_from_local", planet_from_local);
+    const struct gpu_pass pass = {.target = &h->target};
+    gpu_pass_begin(h->gpu, &pass);
+    return gpu_draw_fullscreen(&h->grid_program, "terrain heights");
+}
+
+static trl_result update(struct mesher *base, const struct camera *camera)
+{
+    struct hemisphere *h = (struct hemisphere *)base;
+    h->camera = *camera;
+    if (!projection_is_stale(&h->projection, camera)) {
+        return TRL_OK;
+    }
+    h->projection = projection_make(h->surface, camera);
+    // Distance on the ground near the middle, as grid coordinate: the apex of Eq. 2 is 1 above z_s.
+    const double apex = 1 + h->projection.lift;
+    const double near =
+        fmax(h->projection.height_m, NEAREST_M) / h->surface->radius_m * fmax(apex, 0.1);
+    h->power = projection_power(near, RING_AT_HEIGHT, CELLS / 2.0);
+    h->is_coarse = h->projection.height_m > COARSE_FROM_RADIUS * h->surface->radius_m;
+    for (uint32_t i = 0; i < CHUNKS; i++) {
+        place_chunk(h, i);
+    }
+    h->base.stats.projections++;
+    return draw_grid(h);
+}
+
+static bool is_in_frustum(const struct camera *camera, const struct chunk *c)
+{
+    const struct vec3 v = vec3_sub(c->centre_m, camera->position_m);
+    const double z = vec3_dot(camera->forward, v);
+    const double x = fabs(vec3_dot(camera->right, v));
+    const double y = fabs(vec3_dot(camera->up, v));
+    const double tx = camera->tan_half_fov_x;
+    const double ty = camera->tan_half_fov_y;
+    return z > -c->radius_m && x - z * tx <= c->radius_m * sqrt(1 + tx * tx) &&
+           y - z * ty <= c->radius_m * sqrt(1 + ty * ty);
+}
+
+static bool is_above_horizon(const struct hemisphere *h, const struct chunk *c)
+{
+    const double distance = vec3_length(h->camera.position_m);
+    const double cosine = vec3_dot(h->camera.position_m, c->direction) / distance;
+    const double away = acos(fmax(-1, fmin(1, cosine))) - c->angle_rad;
+    const double solid = h->projection.solid_m;
+    const double peak = h->surface->radius_m + c->max_altitude_m;
+    return away <= acos(fmin(1, solid / distance)) + acos(fmin(1, solid / fmax(peak, solid)));
+}
+
+static void set_camera(struct hemisphere *h)
+{
+    const struct camera *c = &h->camera;
+    const struct vec3 ground = vec3_scale(h->projection.anchor.up, h->surface->radius_m);
+    const struct vec3 offset = vec3_sub(ground, c->position_m);
+    const struct vec3 rows[3] = {vec3_scale(c->right, 1 / c->tan_half_fov_x),
+                                 vec3_scale(c->up, 1 / c->tan_half_fov_y), c->forward};
+    float view[9];
+    for (int i = 0; i < 3; i++) {
+        view[i] = (float)rows[i].x;
+        view[3 + i] = (float)rows[i].y;
+        view[6 + i] = (float)rows[i].z;
+    }
+    const float camera_offset[3] = {(float)offset.x, (float)offset.y, (float)offset.z};
+    const double height = vec3_length(c->position_m) - h->surface->radius_m -
+                          surface_altitude(h->surface, c->position_m);
+    gpu_program_set_vec3(&h->mesh_program, "u_camera_offset", camera_offset);
+    gpu_program_set_mat3(&h->mesh_program, "u_view", view);
+    // Ground nearer than a quarter of the height would be a cliff of 75 degrees beside the camera.
+    gpu_program_set_float(&h->mesh_program, "u_near_m", (float)fmax(0.05, 0.25 * height));
+    gpu_program_set_texture(&h->mesh_program, "u_positions", &h->positions);
+}
+
+static bool is_visible(const struct hemisphere *h, uint32_t chunk)
+{
+    return is_in_frustum(&h->camera, &h->chunks[chunk]) && is_above_horizon(h, &h->chunks[chunk]);
+}
+
+static trl_result draw_run(struct hemisphere *h, uint32_t first, uint32_t count)
+{
+    const struct gpu_mesh *mesh = h->is_coarse ? &h->coarse : &h->fine;
+    const uint32_t size = chunk_indices(h->is_coarse ? 2 : 1);
+    const struct gpu_draw_range range = {first * size, count * size, 1};
+    h->base.stats.triangles += range.count / 3;
+    h->base.stats.chunks += count;
+    h->base.stats.draws++;
+    return gpu_draw_mesh_range(&h->mesh_program, mesh, range, "terrain mesh");
+}
+
+static trl_result draw(struct mesher *base, const struct gpu_target *target)
+{
+    struct hemisphere *h = (struct hemisphere *)base;
+    const struct gpu_pass pass = {
+        .target = target,
+        .state = {.depth = GPU_DEPTH_NEARER, .writes_depth = true, .cull = GPU_CULL_BACK},
+        .clears_color = true,
+        .color = {0, 0, 0, MESHER_NO_SURFACE},
+        .clears_depth = true};
+    gpu_pass_begin(h->gpu, &pass);
+    h->base.stats = (struct mesher_stats){.projections = h->base.stats.projections};
+    set_camera(h);
+    trl_result result = TRL_OK;
+    for (uint32_t i = 0; i < CHUNKS && result == TRL_OK; i++) {
+        const uint32_t first = i;
+        while (i < CHUNKS && is_visible(h, i)) {
+            i++;
+        }
+        if (i > first) {
+            result = draw_run(h, first, i - first);
+        }
+    }
+    return result;
+}
+
+static void destroy(struct mesher *base)
+{
+    struct hemisphere *h = (struct hemisphere *)base;
+    gpu_mesh_finish(&h->fine);
+    gpu_mesh_finish(&h->coarse);
+    gpu_program_finish(&h->grid_program);
+    gpu_program_finish(&h->mesh_program);
+    gpu_target_finish(&h->target);
+    gpu_texture_finish(&h->positions);
+    mem_free(h->gpu->ctx, h);
+}
+
+trl_result hemisphere_create(const struct surface *surface, struct mesher **out)
+{
+    static const struct mesher_ops OPS = {update, draw, destroy};
+    struct hemisphere *h = mem_alloc(surface->gpu->ctx, 1, sizeof *h);
+    *out = NULL;
+    if (!h) {
+        return TRL_ERROR_MEMORY;
+    }
+    h->base.ops = &OPS;
+    h->gpu = surface->gpu;
+    h->surface = surface;
+    trl_result result = make_target(h);
+    result = result == TRL_OK ? make_programs(h) : result;
+    result = result == TRL_OK ? make_mesh(h, 1, &h->fine) : result;
+    result = result == TRL_OK ? make_mesh(h, 2, &h->coarse) : result;
+    if (result != TRL_OK) {
+        destroy(&h->base);
+        return result;
+    }
+    *out = &h->base;
+    return TRL_OK;
+}

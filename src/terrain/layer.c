@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "terrain/layer.h"
+
+#include "shared/cubic.glsl"
+
+#include <math.h>
+#include <string.h>
+
+enum { STRIP_ROWS = 128 }; // converted and uploaded at a time: bounds what is held twice
+
+static double radians(double degrees)
+{
+    return degrees * (SHARED_PI / 180);
+}
+
+struct layer_frame layer_frame_of(const struct raster *raster, const struct gpu *gpu,
+                                  double feather)
+{
+    const struct raster_window window = raster_window_whole(raster, gpu->caps.max_texture_size);
+    const double width = raster->pixel_width_deg * raster->width;
+    const double height = raster->pixel_height_deg * raster->height;
+    return (struct layer_frame){
+        .width = window.out_width,
+        .height = window.out_height,
+        .centre_latitude = radians(raster->north_deg - height / 2),
+        .centre_longitude = radians(raster->west_deg + width / 2),
+        .half_width = radians(width / 2),
+        .half_height = radians(height / 2),
+        .texel_width = radians(width / window.out_width),
+        .texel_height = radians(height / window.out_height),
+        .feather = feather,
+        .is_whole_circle = raster->is_whole_circle,
+        // Half a pixel: rasters whose nodes lie on the poles, and those that end just before.
+        .touches_north = raster->north_deg > 90 - raster->pixel_height_deg / 2,
+        .touches_south = raster->south_deg < -90 + raster->pixel_height_deg / 2};
+}
+
+// 0 at a border, 1 from the feather inward.
+static double weigh_border(double inside, double feather)
+{
+    if (inside < 0) {
+        return 0;
+    }
+    const double t = feather > 0 ? fmin(inside / feather, 1) : 1;
+    return t * t * (3 - 2 * t);
+}
+
+struct layer_place layer_locate(const struct layer_frame *f, double latitude, double longitude)
+{
+    double east = longitude - f->centre_longitude;
+    east -= 2 * SHARED_PI * floor(east / (2 * SHARED_PI) + 0.5);
+    const double north = latitude - f->centre_latitude;
+    double inside = f->is_whole_circle ? 9 : f->half_width - fabs(east);
+    inside = fmin(inside, f->touches_north ? 9 : f->half_height - north);
+    inside = fmin(inside, f->touches_south ? 9 : f->half_height + north);
+    return (struct layer_place){.x = (east + f->half_width) / f->texel_width - 0.5,
+                                .y = (f->half_height - north) / f->texel_height - 0.5,
+                                .weight = weigh_border(inside, f->feather)};
+}
+
+size_t layer_texel_index(const struct layer_frame *f, int64_t x, int64_t y)
+{
+    const int64_t width = f->width;
+    const int64_t height = f->height;
+    if (((y < 0 && f->touches_north) || (y >= height && f->touches_south)) && f->is_whole_circle) {
+        y = y < 0 ? -1 - y : 2 * height - 1 - y;
+        x += width / 2;
+    }
+    y = y < 0 ? 0 : y >= height ? height - 1 : y;
+    if (f->is_whole_circle) {
+        x = ((x % width) + width) % width;
+    }
+    x = x < 0 ? 0 : x >= width ? width - 1 : x;
+    return (size_t)(y * width + x);
+}
+
+double layer_texel(const struct terrain_layer *layer, int64_t x, int64_t y)
+{
+    const struct layer_heights *h = &layer->heights;
+    const size_t i = layer_texel_index(&layer->frame, x, y);
+    return h->offset_m + h->scale * (h->shorts ? (double)h->shorts[i] : (double)h->floats[i]);
+}
+
+double layer_sample(const struct terrain_layer *layer, double x, double y)
+{
+    const int64_t column = (int64_t)floor(x);
+    const int64_t row = (int64_t)floor(y);
+    const double fx = x - (double)column;
+    double rows[4];
+    for (int j = 0; j < 4; j++) {
+        double t[4];
+        for (int i = 0; i < 4; i++) {
+            t[i] = layer_texel(layer, column - 1 + i, row - 1 + j);
+        }
+        rows[j] = cubic_blend(fx, t[0], t[1], t[2], t[3]);
+    }
+    return cubic_blend(y - (double)row, rows[0], rows[1], rows[2], rows[3]);
+}
+
+static void set_texel(struct layer_heights *h, size_t i, double metres)
+{
+    const double value = (metres - h->offset_m) / h->scale;
+    if (h->shorts) {
+        h->shorts[i] = (int16_t)lrint(fmax(INT16_MIN, fmin(INT16_MAX, value)));
+    } else {
+        h->floats[i] = (float)value;
+    }
+}
+
+static trl_result read_texels(const struct raster *raster, struct terrain_layer *layer)
+{
+    const struct raster_window w =
+        raster_window_whole(raster, layer->frame.width > layer->frame.height ? layer->frame.width
+                                                                             : layer->frame.height);
+    const size_t count = (size_t)layer->frame.width * layer->frame.height;
+    struct layer_heights *h = &layer->heights;
+    if (raster->type == RASTER_FLOAT) {
+        h->floats = mem_alloc(layer->ctx, count, sizeof *h->floats);
+        return h->floats ? raster_read_float(raster, &w, 0, h->floats) : TRL_ERROR_MEMORY;
+    }
+    h->shorts = mem_alloc(layer->ctx, count, sizeof *h->shorts);
+    return h->shorts ? raster_read_int16(raster, &w, 0, h->shorts) : TRL_ERROR_MEMORY;
+}
+
+static void fill_void_row(struct terrain_layer *layer, const struct raster *raster,
+                          const struct layer_fill *below, uint32_t y)
+{
+    const struct layer_frame *f = &layer->frame;
+    struct layer_heights *h = &layer->heights;
+    const double latitude = f->centre_latitude + f->half_height - (y + 0.5) * f->texel_height;
+    for (uint32_t x = 0; x < f->width; x++) {
+        const size_t i = (size_t)y * f->width + x;
+        const bool is_void =
+            h->floats ? !isfinite(h->floats[i]) : (double)h->shorts[i] == raster->nodata;
+        if (is_void) {
+            const double longitude =
+                f->centre_longitude - f->half_width + (x + 0.5) * f->texel_width;
+            set_texel(h, i, below->height(below->user, latitude, longitude));
+        }
+    }
+}
+
+// Mean over as many columns as a texel is narrower than high: all of them in the last row, so that
+// the pole has one height, and no spikes around it.
+static void level_row(struct terrain_layer *layer, uint32_t y, double *sums)
+{
+    const struct layer_frame *f = &layer->frame;
+    const double latitude = f->centre_latitude + f->half_height - (y + 0.5) * f->texel_height;
+    const double columns = f->texel_height / (f->texel_width * fmax(cos(latitude), 1e-9));
+    const int64_t width = f->width;
+    // Half a circle at the last but one row already covers both sides of the pole.
+    const int64_t half = columns >= (double)width / 8 ? (width - 1) / 2 : (int64_t)(columns / 2);
+    sums[0] = 0;
+    for (int64_t x = 0; x < width + 2 * half; x++) {
+        sums[x + 1] = sums[x] + layer_texel(layer, x - half, y);
+    }
+    for (int64_t x = 0; x < width; x++) {
+        const double mean = (sums[x + 2 * half + 1] - sums[x]) / (double)(2 * half + 1);
+        set_texel(&layer->heights, (size_t)y * f->width + (size_t)x, mean);
+    }
+}
+
+static trl_result level_poles(struct terrain_layer *layer)
+{
+    const struct layer_frame *f = &layer->frame;
+    if (!f->is_whole_circle || f->width < 8) {
+        return TRL_OK;
+    }
+    double *sums = mem_alloc(layer->ctx, 2 * (size_t)f->width + 1, sizeof *sums);
+    if (!sums) {
+        return TRL_ERROR_MEMORY;
+    }
+    // From 3.6 degrees of the pole, where a texel is 16 times as high as wide.
+    const uint32_t rows = (uint32_t)fmin(1.0 / (16 * f->texel_height), f->height / 2.0);
+    for (uint32_t i = 0; i < rows && f->touches_north; i++) {
+        level_row(layer, i, sums);
+    }
+    for (uint32_t i = 0; i < rows && f->touches_south; i++) {
+        level_row(layer, f->height - 1 - i, sums);
+    }
+    mem_free(layer->ctx, sums);
+    return TRL_OK;
+}
+
+trl_result layer_read_heights(const struct raster *raster, const struct layer_fill *below,
+                              struct terrain_layer *layer)
+{
+    const trl_result result = read_texels(raster, layer);
+    if (result != TRL_OK) {
+        return result;
+    }
+    if (layer->heights.floats || raster->has_nodata) {
+#pragma omp parallel for schedule(dynamic, 16)
+        for (uint32_t y = 0; y < layer->frame.height; y++) {
+            fill_void_row(layer, raster, below, y);
+        }
+    }
+    return level_poles(layer);
+}
+
+static struct gpu_texture_desc describe_texture(const struct gpu *gpu,
+                                                const struct layer_frame *frame)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.width = frame->width;
+    desc.height = frame->height;
+    desc.levels = 0;
+    desc.filter = GPU_FILTER_TRILINEAR;
+    desc.wrap_x = frame->is_whole_circle ? GPU_WRAP_REPEAT : GPU_WRAP_CLAMP;
+    desc.anisotropy = 1;
+    (void)gpu;
+    return desc;
+}
+
+static void convert_strip(const struct terrain_layer *layer, uint32_t row, uint32_t rows,
+                          float *metres)
+{
+    const struct layer_heights *h = &layer->heights;
+    const size_t width = layer->frame.width;
+    const float scale = (float)h->scale;
+    const float offset = (float)h->offset_m;
+#pragma omp parallel for
+    for (uint32_t y = 0; y < rows; y++) {
+        float *to = metres + y * width;
+        const size_t from = (row + y) * width;
+        for (size_t x = 0; x < width; x++) {
+            const float value = h->shorts ? (float)h->shorts[from + x] : h->floats[from + x];
+            to[x] = offset + scale * value;
+        }
+    }
+}
+
+trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer)
+{
+    struct gpu_texture_desc desc = describe_texture(gpu, &layer->frame);
+    desc.label = "elevation";
+    desc.format = GPU_FORMAT_R32F;
+    if (!gpu->caps.has_float_linear) {
+        desc.filter = GPU_FILTER_NEAREST; // terrain/layers.glsl filters by itself
+    }
+    float *strip = mem_alloc(layer->ctx, (size_t)STRIP_ROWS * layer->frame.width, sizeof *strip);
+    trl_result result = strip ? gpu_texture_init(gpu, &desc, &layer->texture) : TRL_ERROR_MEMORY;
+    for (uint32_t y = 0; y < layer->frame.height && result == TRL_OK; y += STRIP_ROWS) {
+        const uint32_t left = layer->frame.height - y;
+        const uint32_t rows = left < STRIP_ROWS ? left : STRIP_ROWS;
+        convert_strip(layer, y, rows, strip);
+        const struct gpu_region region = {0, 0, y, 0, layer->frame.width, rows, 1};
+        result = gpu_texture_upload(&layer->texture, &region, strip);
+    }
+    mem_free(layer->ctx, strip);
+    return result == TRL_OK ? gpu_texture_make_mips(&layer->texture) : result;
+}
+
+// sRGB byte to the square root of its linear value: filtered as it is, it wastes no steps on dark
+// ground and is what the surface buffers hold.
+static void make_root_table(uint8_t table[256])
+{
+    for (int i = 0; i < 256; i++) {
+        const double s = i / 255.0;
+        const double linear = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
+        table[i] = (uint8_t)lrint(sqrt(linear) * 255);
+    }
+}
+
+static trl_result upload_bytes(struct gpu *gpu, enum gpu_format format, const uint8_t *bytes,
+                               struct terrain_layer *layer)
+{
+    struct gpu_texture_desc desc = describe_texture(gpu, &layer->frame);
+    desc.label = format == GPU_FORMAT_R8 ? "mask" : "picture";
+    desc.format = format;
+    desc.data = bytes;
+    const trl_result result = gpu_texture_init(gpu, &desc, &layer->texture);
+    return result == TRL_OK ? gpu_texture_make_mips(&layer->texture) : result;
+}
+
+static struct raster_window texture_window(const struct raster *raster, const struct gpu *gpu)
+{
+    return raster_window_whole(raster, gpu->caps.max_texture_size);
+}
+
+trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
+                              struct terrain_layer *layer)
+{
+    const struct raster_window w = texture_window(raster, gpu);
+    const size_t count = (size_t)w.out_width * w.out_height;
+    uint8_t *rgba = mem_alloc(layer->ctx, count, 4);
+    trl_result result = rgba ? raster_read_rgba8(raster, &w, rgba) : TRL_ERROR_MEMORY;
+    if (result == TRL_OK) {
+        uint8_t table[256];
+        make_root_table(table);
+#pragma omp parallel for
+        for (size_t i = 0; i < count; i++) {
+            for (int c = 0; c < 3; c++) {
+                rgba[4 * i + c] = table[rgba[4 * i + c]];
+            }
+        }
+        result = upload_bytes(gpu, GPU_FORMAT_RGBA8, rgba, layer);
+    }
+    mem_free(layer->ctx, rgba);
+    return result;
+}
+
+trl_result layer_load_mask(struct gpu *gpu, const struct raster *raster,
+                           struct terrain_layer *layer, uint8_t **bytes)
+{
+    const struct raster_window w = texture_window(raster, gpu);
+    *bytes = mem_alloc(layer->ctx, (size_t)w.out_width * w.out_height, 1);
+    trl_result result = *bytes ? raster_read_uint8(raster, &w, 0, *bytes) : TRL_ERROR_MEMORY;
+    if (result == TRL_OK) {
+        result = upload_bytes(gpu, GPU_FORMAT_R8, *bytes, layer);
+    }
+    return result;
+}
+
+void layer_finish(struct terrain_layer *layer)
+{
+    if (layer->ctx) {
+        mem_free(layer->ctx, layer->heights.shorts);
+        mem_free(layer->ctx, layer->heights.floats);
+        gpu_texture_finish(&layer->texture);
+    }
+    *layer = (struct terrain_layer){0};
+}

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef TERRAIN_SHADOW_H
+#define TERRAIN_SHADOW_H
+// Shadow that terrain casts on terrain, and on the air above it: for each place around the camera,
+// the altitude up to which the middle of the sun is hidden. That surface is smooth where the edge
+// of a shadow is not, so it may be sampled coarsely; a pixel compares its own altitude with it.
+// Independent of the mesher. Made anew when the projection camera or the sun moves.
+
+#include "gpu/target.h"
+#include "terrain/projection.h"
+
+struct terrain_shadow {
+    struct gpu *gpu;
+    const struct surface *surface;
+    double sun_angular_radius_rad;
+    struct projection projection;
+    struct vec3 sun; // for which it was made
+    double power, extent;
+    struct gpu_program program;
+    struct gpu_texture map; // R = altitude, m; G = half of the penumbra's height, m
+    struct gpu_target target;
+};
+
+// TRL_ERROR_GPU; TRL_ERROR_MEMORY. Must not outlive the surface.
+TRL_MUST_USE trl_result terrain_shadow_init(const struct surface *surface,
+                                            double sun_angular_radius_rad,
+                                            struct terrain_shadow *out);
+void terrain_shadow_finish(struct terrain_shadow *shadow);
+
+// Makes it fit the camera and its sun.
+TRL_MUST_USE trl_result terrain_shadow_update(struct terrain_shadow *shadow,
+                                              const struct camera *camera);
+
+// Hands it to a program that includes terrain/shadow.glsl and knows positions relative to `camera`.
+void terrain_shadow_bind(const struct terrain_shadow *shadow, const struct camera *camera,
+                         struct gpu_program *program);
+
+#endif // TERRAIN_SHADOW_H
