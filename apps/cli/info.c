@@ -113,9 +113,7 @@ enum exit_status command_info(int argc, char **argv)
                                      .positional = "[SCENE]",
                                      .max_positionals = 1,
                                      .about = about,
-                                     .examples = examples,
-                                     .sections = &(struct option_section){"Options", NULL, 0},
-                                     .section_count = 1};
+                                     .examples = examples};
     struct option_arguments words;
     const enum options_outcome outcome = options_read(&spec, argc, argv, &words);
     if (outcome != OPTIONS_READ) {

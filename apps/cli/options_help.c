@@ -11,22 +11,18 @@ enum { LINE_WIDTH = 80, HELP_COLUMN = 28, LABEL_MAX = 80 };
 // Prints words from the current column on, further lines indented to `indent`.
 static void print_wrapped(const char *text, int column, int indent)
 {
+    const char *gap = "";
     while (*text) {
         const int length = (int)strcspn(text, " ");
-        if (column > indent && column + length > LINE_WIDTH) {
+        if (column + (int)strlen(gap) + length > LINE_WIDTH) {
             printf("\n%*s", indent, "");
             column = indent;
+            gap = "";
         }
-        printf("%.*s", length, text);
-        column += length;
+        column += printf("%s%.*s", gap, length, text);
         text += length;
-        if (*text == ' ') {
-            text++;
-            if (*text && column + 1 < LINE_WIDTH) {
-                printf(" ");
-                column++;
-            }
-        }
+        text += strspn(text, " ");
+        gap = " ";
     }
     printf("\n");
 }
@@ -62,6 +58,7 @@ void options_print_help(const struct option_spec *spec)
             print_option(&spec->sections[s].options[i]);
         }
     }
+    printf("\n");
     print_entry("  -h, --help", "Print this.");
     printf("\nExamples:\n%s", spec->examples);
 }

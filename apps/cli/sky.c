@@ -58,11 +58,11 @@ static const char examples[] =
     "  terrella sky scenes/earth.json --queries questions.csv -o answers.csv\n";
 
 static const char *const helps[PART_COUNT] = {
-    "Of the observer above the reference sphere; may be above the atmosphere.",
-    "Of the sun's centre: 0 overhead, above 90 below the horizontal.",
-    "Of the line of sight: 0 is up, above 90 looks down.",
-    "Of the line of sight: 0 is toward the sun.",
-    "Of the light.",
+    "Metres of the observer above the reference sphere; may be above the atmosphere.",
+    "Degrees from the zenith to the sun's centre: 0 overhead, above 90 below the horizontal.",
+    "Degrees from the zenith to the line of sight: 0 is up, above 90 looks down.",
+    "Degrees of the line of sight from the sun's: 0 is toward the sun.",
+    "Nanometres.",
 };
 static const char *const metavars[PART_COUNT] = {"M", "DEG", "LIST", "LIST", "LIST"};
 

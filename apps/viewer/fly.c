@@ -127,7 +127,8 @@ void fly_look(struct fly_camera *camera, double right_rad, double up_rad)
     const double weight = fly_camera_orbit_weight(camera);
     const struct vector zenith = fly_camera_zenith(camera);
     const struct vector up = fly_camera_up(camera);
-    const bool is_upright = vector_dot(up, zenith) >= 0.0;
+    // Straight up the picture's upper edge is level, give or take a rounding.
+    const bool is_upright = vector_dot(up, zenith) > -1e-6;
     const struct vector axis = vector_normalize(vector_add(
         vector_scale(zenith, is_upright ? 1.0 - weight : weight - 1.0), vector_scale(up, weight)));
     double pitch_rad = -up_rad;
