@@ -207,13 +207,20 @@ static double ocean_metres(double floor_m, double cells_from_coast)
     return shelf + smoothstep(0, 6, cells_from_coast) * (fmin(floor_m, -4) - shelf);
 }
 
+// Nearer to the ocean than this no dry land is deep below it: there it is the map that is wrong,
+// mostly on ice-covered coasts.
+static const double LAND_CELLS_FROM_COAST = 15;
+
 // The land map cannot tell the Netherlands, an ice shelf or the Caspian's shore from a shallow sea:
 // what it puts within 60 m below the sea is pressed into the 20 m above it. What is deeper (the
 // Dead Sea, Death Valley) is so indeed; between -60 and -200 m the two meet.
-static double land_metres(double metres)
+static double land_metres(double metres, double cells_from_coast)
 {
     if (metres > 20) {
         return metres;
+    }
+    if (metres <= -60 && cells_from_coast < LAND_CELLS_FROM_COAST) {
+        return 1;
     }
     if (metres > -60) {
         return 1 + 19 * (metres + 60) / 80;
@@ -233,7 +240,7 @@ static void merge_row(struct globe *globe, int row)
         if (globe->cells[i] == CELL_OCEAN) {
             metres = ocean_metres(sea_floor(globe->etopo, column, row), cells);
         } else {
-            metres = land_metres(metres);
+            metres = land_metres(metres, cells);
         }
         globe->elevation[i] = (int16_t)lrint(metres);
         if (globe->cells[i] != CELL_LAND) {

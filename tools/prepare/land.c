@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Land height from the Marble globe's elevation map: 16 x 8 JPEG tiles of 675 x 675 grey pixels,
 // whose grey is a curve of the height. A step of grey is 5 m near the sea and 50 to 90 m in high
-// mountains, so the steps would show as terraces. They are undone: the smoothest field is sought
-// among those that round to the same greys.
+// mountains, and where the land is even the compression leaves flat blocks that differ by a few
+// steps; drawn as it is, all that would show. So the smoothest field is sought near the greys.
 #include "prepare.h"
 
 #include <math.h>
@@ -124,15 +124,42 @@ static int clamp_row(int y)
     return y < 0 ? 0 : y >= GLOBE_HEIGHT ? GLOBE_HEIGHT - 1 : y;
 }
 
-// How far from its grey a value may go, in greys. Half a step is what rounding hides; the rest is
-// the noise that JPEG adds.
-static const float FREEDOM = 1.0f;
+// How far from its grey a value may go, in greys, where the land is even (no contrast) and where it
+// is rough. Half a step is what rounding hides; the rest is what the compression adds, which rough
+// land hides and even land does not. Found by eye on hillshades of Tibet, the Himalaya and the
+// Alps.
+static const float FREEDOM_EVEN = 2.0f;
+static const float FREEDOM_ROUGH = 0.75f;
+static const float CONTRAST_ROUGH = 4.0f; // mean distance from the mean about, in greys
+enum {
+    CONTRAST_RADIUS = 5,
+    FREEDOM_UNIT = 64,
+    WIDE_RADIUS = 6
+}; // freedoms are kept in 64ths of a grey
 
 enum { STRIPE = 400 }; // columns that go down together; divides GLOBE_WIDTH
 
-// Mean over 2r + 1 rows of one stripe of columns, held within the freedom about the greys.
-static void blur_stripe(const float *from, const uint8_t *grey, float *to, int first, int radius)
+struct smoothing {
+    const uint8_t *grey, *freedom; // no freedom: nothing is held
+    float *field, *scratch;
+};
+
+// Wide means keep to the rounding everywhere: they would pull an even plain up to the mountains
+// beside it.
+static float hold(const struct smoothing *s, size_t i, int radius, float value)
 {
+    const float freedom =
+        radius > WIDE_RADIUS ? FREEDOM_ROUGH : (float)s->freedom[i] / FREEDOM_UNIT;
+    const float low = (float)s->grey[i] - freedom;
+    const float high = (float)s->grey[i] + freedom;
+    return value < low ? low : value > high ? high : value;
+}
+
+// Mean over 2r + 1 rows of one stripe of columns, held within its freedom about the greys.
+static void blur_stripe(const struct smoothing *s, int first, int radius)
+{
+    const float *from = s->scratch;
+    float *to = s->field;
     double sum[STRIPE] = {0};
     const float scale = 1.0f / (float)(2 * radius + 1);
     for (int y = -radius; y <= radius; y++) {
@@ -146,38 +173,63 @@ static void blur_stripe(const float *from, const uint8_t *grey, float *to, int f
         const float *leaves = from + (size_t)clamp_row(y - radius) * GLOBE_WIDTH + first;
         for (int x = 0; x < STRIPE; x++) {
             const float mean = (float)sum[x] * scale;
-            const float low = (float)grey[row + x] - FREEDOM;
-            const float high = (float)grey[row + x] + FREEDOM;
-            to[row + x] = mean < low ? low : mean > high ? high : mean;
+            to[row + x] = s->freedom ? hold(s, row + x, radius, mean) : mean;
             sum[x] += (double)enters[x] - (double)leaves[x];
         }
     }
 }
 
-static void smooth_once(const uint8_t *grey, float *field, float *scratch, int radius)
+static void smooth_once(const struct smoothing *s, int radius)
 {
-    blur_rows(field, scratch, radius);
+    blur_rows(s->field, s->scratch, radius);
 #pragma omp parallel for schedule(static)
     for (int first = 0; first < GLOBE_WIDTH; first += STRIPE) {
-        blur_stripe(scratch, grey, field, first, radius);
+        blur_stripe(s, first, radius);
     }
 }
 
-// Wide means first, which reach across broad terraces, then narrow ones, which round what is left.
-static trl_result undo_steps(const struct places *places, const uint8_t *grey, float *field,
-                             float *scratch)
+static void copy_greys(const struct smoothing *s)
 {
-    static const int RADII[] = {24, 24, 12, 12, 6, 6, 3, 3, 2, 2, 1, 1, 1};
-    const size_t count = (size_t)GLOBE_WIDTH * GLOBE_HEIGHT;
-    for (size_t i = 0; i < count; i++) {
-        field[i] = grey[i];
+    for (size_t i = 0; i < (size_t)GLOBE_WIDTH * GLOBE_HEIGHT; i++) {
+        s->field[i] = s->grey[i];
     }
+}
+
+// The freedom of every pixel from the contrast about it; uses the field as scratch.
+static void find_freedom(struct smoothing *s, uint8_t *freedom)
+{
+    const size_t count = (size_t)GLOBE_WIDTH * GLOBE_HEIGHT;
+    copy_greys(s);
+    smooth_once(s, CONTRAST_RADIUS);
+    for (size_t i = 0; i < count; i++) {
+        s->field[i] = fabsf((float)s->grey[i] - s->field[i]);
+    }
+    smooth_once(s, CONTRAST_RADIUS);
+    for (size_t i = 0; i < count; i++) {
+        const float rough = fminf(1, fmaxf(0, s->field[i] / CONTRAST_ROUGH));
+        const float grey = FREEDOM_EVEN + rough * (FREEDOM_ROUGH - FREEDOM_EVEN);
+        freedom[i] = (uint8_t)(grey * FREEDOM_UNIT);
+    }
+    s->freedom = freedom;
+}
+
+// Wide means first, which reach across broad terraces, then narrow ones, which round what is left.
+static trl_result undo_steps(const struct places *places, struct smoothing *s)
+{
+    static const int RADII[] = {24, 24, 12, 12, 6, 6, 4, 4, 3, 3, 2, 2, 1, 1, 1};
+    uint8_t *freedom = mem_alloc(places->ctx, (size_t)GLOBE_WIDTH * GLOBE_HEIGHT, 1);
+    if (!freedom) {
+        return TRL_ERROR_MEMORY;
+    }
+    find_freedom(s, freedom);
+    copy_greys(s);
     const size_t passes = sizeof RADII / sizeof RADII[0];
     trl_result result = TRL_OK;
     for (size_t i = 0; i < passes && result == TRL_OK; i++) {
-        smooth_once(grey, field, scratch, RADII[i]);
+        smooth_once(s, RADII[i]);
         result = trl_progress(places->ctx, "land", (double)(i + 1) / (double)(passes + 1));
     }
+    mem_free(places->ctx, freedom);
     return result;
 }
 
@@ -192,7 +244,7 @@ static void apply_curve(float *field)
     }
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < (size_t)GLOBE_WIDTH * GLOBE_HEIGHT; i++) {
-        const float at = fmaxf(field[i], 0) * CURVE_STEPS;
+        const float at = fminf(fmaxf(field[i], 0), 256) * CURVE_STEPS;
         const int step = (int)at;
         field[i] = curve[step] + (at - (float)step) * (curve[step + 1] - curve[step]);
     }
@@ -209,7 +261,8 @@ trl_result land_read(const struct places *places, struct land *out)
         result = read_mosaic(places, out->grey);
     }
     if (result == TRL_OK) {
-        result = undo_steps(places, out->grey, out->metres, scratch);
+        struct smoothing s = {.grey = out->grey, .field = out->metres, .scratch = scratch};
+        result = undo_steps(places, &s);
     }
     if (result == TRL_OK) {
         apply_curve(out->metres);
