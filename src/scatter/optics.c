@@ -4,8 +4,9 @@
 
 #include <math.h>
 
-// How much of the shell coordinate goes to plain altitude; the rest follows the matter. Found by halving the
-// error of twilight (which wants the thin upper air) and of haze (which wants the ground) together.
+// How much of the shell coordinate goes to plain altitude; the rest follows the matter. Found by
+// halving the error of twilight (which wants the thin upper air) and of haze (which wants the
+// ground) together.
 static const double UNIFORM_SHARE = 0.3;
 
 double optics_shell_slope(const struct optics *optics, double altitude_m)
@@ -90,8 +91,8 @@ static void fill_depths(struct optics *optics, const double *column)
     }
 }
 
-// Each constituent gets a part of the coordinate by the root of its optical depth, so that a thin haze is
-// not lost beside thick air.
+// Each constituent gets a part of the coordinate by the root of its optical depth, so that a thin
+// haze is not lost beside thick air.
 static void choose_shares(struct optics *optics, const double *column, const double *root_column)
 {
     double part[MEDIUM_MAX_CONSTITUENTS];

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #ifndef SCATTER_OPTICS_H
 #define SCATTER_OPTICS_H
-// The medium at up to sixteen wavelengths, with its altitude coordinate: what every integration along a ray needs.
+// The medium at up to sixteen wavelengths, with its altitude coordinate: what every integration
+// along a ray needs.
 
 #include "base/lanes.h"
 #include "scatter/medium.h"
@@ -19,15 +20,18 @@ struct optics {
     lanes scattering_per_m[MEDIUM_MAX_CONSTITUENTS]; // at reference density
     lanes extinction_per_m[MEDIUM_MAX_CONSTITUENTS];
     lanes ground_albedo;
-    double moment[MEDIUM_MAX_CONSTITUENTS][OPTICS_MAX_DEGREE + 1]; // Legendre, of the phase functions
-    double vertical_depth[LANES];            // optical depth of extinction, straight up
+    double moment[MEDIUM_MAX_CONSTITUENTS]
+                 [OPTICS_MAX_DEGREE + 1]; // Legendre, of the phase functions
+    double vertical_depth[LANES];         // optical depth of extinction, straight up
     double vertical_scattering_depth[MEDIUM_MAX_CONSTITUENTS]; // largest over the wavelengths
 
-    // The shell coordinate u in [0, 1] rises from the ground to the top and stretches the altitudes where
-    // the medium is: grids uniform in u, and quadratures over it, resolve thin layers of any medium.
-    double shell_of_altitude[SHELL_SAMPLES + 1]; // u at altitudes uniform from 0 to the top
-    double altitude_of_shell[SHELL_SAMPLES + 1]; // m at u uniform in [0, 1]
-    double share_weight[MEDIUM_MAX_CONSTITUENTS]; // of sqrt(density) of each constituent in du/dh, per m
+    // The shell coordinate u in [0, 1] rises from the ground to the top and stretches the altitudes
+    // where the medium is: grids uniform in u, and quadratures over it, resolve thin layers of any
+    // medium.
+    double shell_of_altitude[SHELL_SAMPLES + 1];  // u at altitudes uniform from 0 to the top
+    double altitude_of_shell[SHELL_SAMPLES + 1];  // m at u uniform in [0, 1]
+    double share_weight[MEDIUM_MAX_CONSTITUENTS]; // of sqrt(density) of each constituent in du/dh,
+                                                  // per m
     double share_uniform;                         // of plain altitude in du/dh, per m
 };
 
@@ -35,8 +39,8 @@ struct optics {
 void optics_init(struct optics *optics, const struct medium *medium, const double *wavelength_nm,
                  int count);
 
-double optics_shell(const struct optics *optics, double altitude_m);    // u, clamped to [0, 1]
-double optics_altitude(const struct optics *optics, double shell);      // m
+double optics_shell(const struct optics *optics, double altitude_m);       // u, clamped to [0, 1]
+double optics_altitude(const struct optics *optics, double shell);         // m
 double optics_shell_slope(const struct optics *optics, double altitude_m); // du/dh, per m, > 0
 
 #endif // SCATTER_OPTICS_H

@@ -36,7 +36,8 @@ void gauss_init(struct gauss *rule, int count)
 }
 
 // The interpolating polynomial through the nodes expands in Legendre polynomials with coefficients
-// (2l+1) sum_j w_j P_l(x_j) f_j; P_l integrates to (P_{l+1} - P_{l-1}) / (2 (2l+1)) on the unit interval.
+// (2l+1) sum_j w_j P_l(x_j) f_j; P_l integrates to (P_{l+1} - P_{l-1}) / (2 (2l+1)) on the unit
+// interval.
 void gauss_cumulative(const struct gauss *rule, double *cumulative)
 {
     const int n = rule->count;
@@ -69,8 +70,8 @@ void harmonic_values(int lmax, double mu, double *values)
         values[harmonic_index(m, m)] = azimuth_norm * now;
         for (int l = m + 1; l <= lmax; l++) {
             const double a = sqrt((4.0 * l * l - 1) / ((double)l * l - (double)m * m));
-            const double b = sqrt(((l - 1.0) * (l - 1.0) - (double)m * m) /
-                                  (4.0 * (l - 1.0) * (l - 1.0) - 1));
+            const double b =
+                sqrt(((l - 1.0) * (l - 1.0) - (double)m * m) / (4.0 * (l - 1.0) * (l - 1.0) - 1));
             const double next = a * (mu * now - b * before);
             before = now;
             now = next;

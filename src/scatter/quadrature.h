@@ -17,12 +17,12 @@ struct gauss {
 
 void gauss_init(struct gauss *rule, int count);
 
-// cumulative[k * count + j]: weight of the value at node j in the integral from 0 to node k, exact for
-// polynomials of degree count - 1.
+// cumulative[k * count + j]: weight of the value at node j in the integral from 0 to node k, exact
+// for polynomials of degree count - 1.
 void gauss_cumulative(const struct gauss *rule, double *cumulative);
 
-// Real spherical harmonics without their azimuth factor: Y_lm(mu, phi) = harmonic(l, m, mu) cos(m phi), normalised
-// over the sphere. Index of (l, m), 0 <= m <= l: harmonic_index.
+// Real spherical harmonics without their azimuth factor: Y_lm(mu, phi) = harmonic(l, m, mu) cos(m
+// phi), normalised over the sphere. Index of (l, m), 0 <= m <= l: harmonic_index.
 static inline int harmonic_index(int l, int m)
 {
     return l * (l + 1) / 2 + m;

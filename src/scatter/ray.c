@@ -15,7 +15,8 @@ void ray_rules_init(struct ray_rules *rules)
     }
 }
 
-// Half the chord that a line passing the centre at `pass_m` cuts from a sphere, without cancellation.
+// Half the chord that a line passing the centre at `pass_m` cuts from a sphere, without
+// cancellation.
 static double half_chord(double radius_m, double pass_m)
 {
     return sqrt(fmax(0, (radius_m - pass_m) * (radius_m + pass_m)));
@@ -33,14 +34,15 @@ bool ray_clip(const struct optics *optics, double radius_m, double mu, double *b
         return false;
     }
     *begin_m = fmax(0, -top - position);
-    *end_m = *hits_ground ? -half_chord(optics->ground_radius_m, pass_m) - position : top - position;
+    *end_m =
+        *hits_ground ? -half_chord(optics->ground_radius_m, pass_m) - position : top - position;
     *end_m = fmax(*begin_m, *end_m);
     return *end_m > *begin_m;
 }
 
-// A stretch of the ray on which the altitude rises or falls all the way. Its parameter t runs from 0 at the
-// low end to 1 at the high end, with shell = low + (high - low) t^2, which lifts the root singularity of the
-// distance at a closest point.
+// A stretch of the ray on which the altitude rises or falls all the way. Its parameter t runs from
+// 0 at the low end to 1 at the high end, with shell = low + (high - low) t^2, which lifts the root
+// singularity of the distance at a closest point.
 struct leg {
     double from_m, to_m; // distances from the eye
     bool is_rising;
@@ -50,8 +52,7 @@ struct leg {
 static double altitude_at(const struct ray *ray, const struct optics *optics, double distance_m)
 {
     const double r = ray->eye_radius_m;
-    const double square =
-        r * r + distance_m * (distance_m + 2 * r * ray->eye_mu); // law of cosines
+    const double square = r * r + distance_m * (distance_m + 2 * r * ray->eye_mu); // law of cosines
     return fmax(0, sqrt(fmax(0, square)) - optics->ground_radius_m);
 }
 
@@ -78,16 +79,15 @@ static void place_node(struct ray_node *node, const struct ray *ray, const struc
     node->altitude_m = leg->low_altitude_m + optics_altitude(optics, node->shell) -
                        optics_altitude(optics, leg->low_shell);
     node->radius_m = optics->ground_radius_m + node->altitude_m;
-    const double pass_m =
-        ray->eye_radius_m * sqrt(fmax(0, 1 - ray->eye_mu * ray->eye_mu));
+    const double pass_m = ray->eye_radius_m * sqrt(fmax(0, 1 - ray->eye_mu * ray->eye_mu));
     const double chord = fmax(half_chord(node->radius_m, pass_m), 1e-6);
     const double position = leg->is_rising ? chord : -chord;
     node->distance_m = position - ray->eye_radius_m * ray->eye_mu;
     node->mu = position / node->radius_m;
     node->sine = fmin(1, pass_m / node->radius_m);
     // ds/dt = (ds/dr) (dr/du) (du/dt)
-    node->weight_m = node->radius_m / chord / optics_shell_slope(optics, node->altitude_m) * 2 *
-                     span * t;
+    node->weight_m =
+        node->radius_m / chord / optics_shell_slope(optics, node->altitude_m) * 2 * span * t;
     for (int i = 0; i < optics->constituent_count; i++) {
         node->density[i] =
             profile_density(&optics->medium->constituents[i].profile, node->altitude_m);
@@ -137,7 +137,8 @@ static double leg_parameter(const struct ray *ray, const struct optics *optics,
     return span > 0 ? sqrt(fmin(fmax((shell - leg->low_shell) / span, 0), 1)) : 0;
 }
 
-// Follows the leg from kink to kink, with as many nodes as the shells that each piece crosses ask for.
+// Follows the leg from kink to kink, with as many nodes as the shells that each piece crosses ask
+// for.
 static void add_leg(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
                     const struct ray_desc *desc, const struct leg *leg)
 {
@@ -147,11 +148,12 @@ static void add_leg(struct ray *ray, const struct optics *optics, const struct r
         if (!is_last && (desc->break_m[b] <= leg->from_m || desc->break_m[b] >= leg->to_m)) {
             continue;
         }
-        const double to = is_last ? (leg->is_rising ? 1 : 0)
-                                  : leg_parameter(ray, optics, leg, desc->break_m[b]);
+        const double to =
+            is_last ? (leg->is_rising ? 1 : 0) : leg_parameter(ray, optics, leg, desc->break_m[b]);
         const double span = (leg->high_shell - leg->low_shell) * fabs(to * to - at * at);
         // A short way through few shells can still be long in t, so half of the nodes go by t.
-        const double wanted = desc->nodes_per_shell * (0.5 * span + 0.5 * fabs(to - at) * sqrt(span));
+        const double wanted =
+            desc->nodes_per_shell * (0.5 * span + 0.5 * fabs(to - at) * sqrt(span));
         const int count = LEG_MIN_NODES + (int)fmin(ceil(wanted), RAY_MAX_NODES);
         const int pieces = (count + RAY_RULE_NODES - 1) / RAY_RULE_NODES;
         for (int p = 0; p < pieces && to != at; p++) {

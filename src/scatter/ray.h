@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #ifndef SCATTER_RAY_H
 #define SCATTER_RAY_H
-// The nodes of a quadrature along a straight ray through spherical shells. Everything here depends on the geometry
-// and the density profiles alone, so one ray serves every wavelength, sun and azimuth.
+// The nodes of a quadrature along a straight ray through spherical shells. Everything here depends
+// on the geometry and the density profiles alone, so one ray serves every wavelength, sun and
+// azimuth.
 
 #include "scatter/optics.h"
 #include "scatter/quadrature.h"
@@ -33,7 +34,8 @@ struct ray_node {
 struct ray_desc {
     double radius_m;        // of the eye; above the top is legal
     double mu;              // cosine of the ray's zenith angle at the eye
-    double nodes_per_shell; // nodes on a way through the whole shell coordinate; at least 4 are used on any leg
+    double nodes_per_shell; // nodes on a way through the whole shell coordinate; at least 4 are
+                            // used on any leg
     double end_m;           // the ray ends here at the latest; INFINITY: at the ground or the top
     int break_count;        // distances where the integrand has a kink: no rule reaches across
     double break_m[RAY_MAX_BREAKS];

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include <terrella/atmosphere.h>
+
+#include "scatter/query.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static trl_result check_query(const trl_context *ctx, const struct medium *medium,
+                              const trl_sky_query *q, size_t index)
+{
+    const char *wrong = NULL;
+    if (!(q->altitude_m >= 0 && q->altitude_m <= 1e3 * medium->top_radius_m)) {
+        wrong = "altitude must be from 0 to a thousand radii";
+    } else if (!(q->sun_zenith_rad >= 0 && q->sun_zenith_rad <= M_PI * (1 + 1e-12))) {
+        wrong = "sun zenith must be from 0 to 180 degrees";
+    } else if (!(q->view_zenith_rad >= 0 && q->view_zenith_rad <= M_PI * (1 + 1e-12))) {
+        wrong = "view zenith must be from 0 to 180 degrees";
+    } else if (!isfinite(q->azimuth_rad)) {
+        wrong = "azimuth must be a finite number";
+    } else if (!(q->wavelength_nm >= 1 && q->wavelength_nm <= 1e7)) {
+        wrong = "wavelength must be from 1 to 10000000 nm";
+    }
+    return wrong ? trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT, "query %zu: %s",
+                            index + 1, wrong)
+                 : TRL_OK;
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+// The different wavelengths of the queries, ascending; returns how many.
+static size_t list_wavelengths(const trl_sky_query *queries, size_t count, double *nm)
+{
+    for (size_t n = 0; n < count; n++) {
+        nm[n] = queries[n].wavelength_nm;
+    }
+    qsort(nm, count, sizeof *nm, compare_doubles);
+    size_t kept = 0;
+    for (size_t n = 0; n < count; n++) {
+        if (kept == 0 || nm[n] != nm[kept - 1]) {
+            nm[kept++] = nm[n];
+        }
+    }
+    return kept;
+}
+
+// Answers the queries at the solution's wavelengths.
+static trl_result answer_batch(const trl_context *ctx, const struct solution *solution,
+                               const trl_sky_query *queries, size_t count, double *radiance)
+{
+    const struct optics *optics = solution->optics;
+    struct query *query = NULL;
+    const trl_result result = query_create(ctx, solution, &query);
+    for (size_t n = 0; n < count && result == TRL_OK; n++) {
+        const trl_sky_query *q = &queries[n];
+        for (int k = 0; k < optics->wavelength_count; k++) {
+            if (optics->wavelength_nm[k] != q->wavelength_nm) {
+                continue;
+            }
+            const struct query_view view =
+                query_view_make(optics->ground_radius_m + q->altitude_m, q->sun_zenith_rad,
+                                q->view_zenith_rad, q->azimuth_rad);
+            lanes all;
+            query_radiance(query, &view, &all);
+            radiance[n] =
+                (double)all[k] * spectrum_at(&optics->medium->star_irradiance, q->wavelength_nm);
+        }
+    }
+    query_destroy(ctx, &query);
+    return result;
+}
+
+static trl_result solve_and_answer(const trl_context *ctx, const struct medium *medium,
+                                   const trl_sky_query *queries, size_t count, double *radiance)
+{
+    double *nm = mem_alloc(ctx, count, sizeof *nm);
+    struct optics *optics = mem_alloc(ctx, 1, sizeof *optics);
+    trl_result result = nm && optics ? TRL_OK : TRL_ERROR_MEMORY;
+    const size_t different = result == TRL_OK ? list_wavelengths(queries, count, nm) : 0;
+    for (size_t first = 0; first < different && result == TRL_OK; first += LANES) {
+        const size_t left = different - first;
+        for (size_t k = first; k < different && k < first + LANES && result == TRL_OK; k++) {
+            result = medium_check(ctx, medium, nm[k]);
+        }
+        if (result != TRL_OK) {
+            break;
+        }
+        optics_init(optics, medium, nm + first, left < LANES ? (int)left : LANES);
+        const struct solver_settings settings = solver_settings_choose(optics, SOLVER_PRECISE);
+        struct solution solution;
+        result = solution_init(ctx, optics, &settings, &solution);
+        if (result == TRL_OK) {
+            result = answer_batch(ctx, &solution, queries, count, radiance);
+            solution_finish(ctx, &solution);
+        }
+    }
+    mem_free(ctx, nm);
+    mem_free(ctx, optics);
+    return result;
+}
+
+trl_result trl_sky_radiance(trl_context *ctx, const trl_scene *scene, const trl_sky_query *queries,
+                            size_t count, double *radiance)
+{
+    if (!ctx) {
+        return TRL_ERROR_INVALID;
+    }
+    if (!scene || (count > 0 && (!queries || !radiance))) {
+        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                        "trl_sky_radiance: scene, queries and radiance must not be NULL");
+    }
+    for (size_t n = 0; n < count; n++) {
+        const trl_result result = check_query(ctx, &scene->medium, &queries[n], n);
+        if (result != TRL_OK) {
+            return result;
+        }
+    }
+    trl_result result = solve_and_answer(ctx, &scene->medium, queries, count, radiance);
+    for (size_t n = 0; n < count && result == TRL_OK; n++) {
+        if (!isfinite(radiance[n])) {
+            result =
+                trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_SOLVER,
+                         "query %zu has no finite answer: check the scene's coefficients", n + 1);
+        }
+    }
+    return result;
+}

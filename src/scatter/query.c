@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "scatter/query.h"
+
+#include <math.h>
+
+enum { SHADOW_SAMPLES = 96, BISECTIONS = 40 };
+
+static const double NODES_PER_SHELL = 96;
+static const double MORE_NODES_PER_DEPTH = 64; // of vertical optical depth, up to MAX_DEPTH of it
+static const double MAX_DEPTH = 8;
+
+struct query {
+    const struct solution *solution;
+    struct ray ray;
+    struct transport_scratch *scratch;
+};
+
+struct query_view query_view_make(double radius_m, double sun_zenith_rad, double view_zenith_rad,
+                                  double azimuth_rad)
+{
+    struct query_view view = {
+        .radius_m = radius_m, .sun_mu = cos(sun_zenith_rad), .view_mu = cos(view_zenith_rad)};
+    view.nu =
+        view.view_mu * view.sun_mu + sin(view_zenith_rad) * sin(sun_zenith_rad) * cos(azimuth_rad);
+    return view;
+}
+
+trl_result query_create(const trl_context *ctx, const struct solution *solution, struct query **out)
+{
+    *out = mem_alloc(ctx, 1, sizeof **out);
+    if (!*out) {
+        return TRL_ERROR_MEMORY;
+    }
+    (*out)->solution = solution;
+    const trl_result result =
+        transport_scratch_create(ctx, 1, solution->moments.suns, &(*out)->scratch);
+    if (result != TRL_OK) {
+        query_destroy(ctx, out);
+    }
+    return result;
+}
+
+void query_destroy(const trl_context *ctx, struct query **query)
+{
+    if (*query) {
+        transport_scratch_destroy(ctx, &(*query)->scratch);
+        mem_free(ctx, *query);
+        *query = NULL;
+    }
+}
+
+// Angle of the star's centre above the horizon of a point of the ray.
+static double sun_elevation(const struct query_view *view, double ground_radius_m,
+                            double distance_m)
+{
+    const double r = view->radius_m;
+    const double square = r * r + distance_m * (distance_m + 2 * r * view->view_mu);
+    const double radius_m = fmax(sqrt(square), ground_radius_m);
+    const double mu = (r * view->sun_mu + distance_m * view->nu) / radius_m;
+    const double horizon_rad = M_PI - asin(fmin(1, ground_radius_m / radius_m));
+    return horizon_rad - acos(fmin(fmax(mu, -1), 1));
+}
+
+// The source has kinks where the ray crosses the edges of the planet's penumbra. They are found by
+// sampling and bisection; quadratures stop there.
+static void find_shadow_edges(const struct query *query, const struct query_view *view,
+                              struct ray_desc *desc)
+{
+    const struct solution *s = query->solution;
+    double begin_m;
+    double end_m;
+    bool hits_ground;
+    if (!ray_clip(s->optics, view->radius_m, view->view_mu, &begin_m, &end_m, &hits_ground)) {
+        return;
+    }
+    const double edge_rad[2] = {-s->sun.disc_rad, s->sun.disc_rad};
+    double low_m = begin_m;
+    double low = sun_elevation(view, s->optics->ground_radius_m, low_m);
+    for (int k = 1; k <= SHADOW_SAMPLES; k++) {
+        const double high_m = begin_m + (end_m - begin_m) * k / SHADOW_SAMPLES;
+        const double high = sun_elevation(view, s->optics->ground_radius_m, high_m);
+        for (int e = 0; e < 2 && desc->break_count < RAY_MAX_BREAKS; e++) {
+            // Edges in the order in which the ray meets them, so that the breaks ascend.
+            const double edge = edge_rad[low < high ? e : 1 - e];
+            if ((low < edge) == (high < edge)) {
+                continue;
+            }
+            double a = low_m;
+            double b = high_m;
+            for (int n = 0; n < BISECTIONS; n++) {
+                const double middle = 0.5 * (a + b);
+                const double value = sun_elevation(view, s->optics->ground_radius_m, middle);
+                if ((value < edge) == (low < edge)) {
+                    a = middle;
+                } else {
+                    b = middle;
+                }
+            }
+            desc->break_m[desc->break_count++] = 0.5 * (a + b);
+        }
+        low_m = high_m;
+        low = high;
+    }
+}
+
+void query_radiance(struct query *query, const struct query_view *view, lanes *radiance)
+{
+    const struct solution *s = query->solution;
+    const struct optics *optics = s->optics;
+    double depth = 0;
+    for (int k = 0; k < LANES; k++) {
+        depth = fmax(depth, optics->vertical_depth[k]);
+    }
+    struct ray_desc desc = {.radius_m = view->radius_m,
+                            .mu = view->view_mu,
+                            .nodes_per_shell =
+                                NODES_PER_SHELL + MORE_NODES_PER_DEPTH * fmin(depth, MAX_DEPTH),
+                            .end_m = INFINITY};
+    find_shadow_edges(query, view, &desc);
+    ray_init(&query->ray, optics, s->rules, &desc);
+
+    const float sun_mu = (float)view->sun_mu;
+    const float nu = (float)view->nu;
+    const struct transport_family family = {1, &sun_mu, &nu};
+    struct transport_channels channels;
+    float phase[MEDIUM_MAX_CONSTITUENTS];
+    for (int i = 0; i < optics->constituent_count; i++) {
+        channels.channel[i] = 0;
+        phase[i] = (float)phase_value(&optics->medium->constituents[i].phase, view->nu);
+        channels.phase[i] = &phase[i];
+    }
+    const unsigned state = lanes_flush_denormals();
+    *radiance = lanes_set(0);
+    lanes *const out[1] = {radiance};
+    transport_add_single(&s->sun, &query->ray, &family, &channels, out, query->scratch);
+    transport_add_multiple(&s->moments, &query->ray, &family, radiance, query->scratch);
+    transport_add_ground(&s->sun, &s->moments, &query->ray, &family, radiance);
+    lanes_restore(state);
+}

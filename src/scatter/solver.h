@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SCATTER_SOLVER_H
+#define SCATTER_SOLVER_H
+// The source-moment method: all orders of scattering, order by order, on the grids of struct
+// moments.
+
+#include "scatter/transport.h"
+
+enum solver_quality {
+    SOLVER_INTERACTIVE, // for pictures: about 0.5 %
+    SOLVER_PRECISE      // for numbers: about 0.1 % beyond the interpolation of twilight
+};
+
+struct solver_settings {
+    int lmax;
+    int levels, suns;
+    int zeniths;          // directions above, and as many below, the geometric horizon
+    int azimuths;         // over half a turn
+    int first_refinement; // the first order, which is peaked, has this many times more of both
+    double nodes_per_shell;
+    int max_orders;
+    double tolerance; // the orders left out, relative to the sum
+};
+
+// Grids by the medium's optical depth and the sharpness of its phase functions.
+struct solver_settings solver_settings_choose(const struct optics *optics,
+                                              enum solver_quality quality);
+
+struct solution {
+    const struct optics *optics;
+    struct ray_rules *rules;
+    struct sunlight sun;
+    struct moments moments; // of the radiance of all orders, light of the ground included
+    int orders; // orders of scattering that were computed; the tail is a geometric series
+};
+
+// Solves at the wavelengths of `optics`, which must outlive the solution.
+// TRL_ERROR_MEMORY, TRL_ERROR_CANCELLED.
+TRL_MUST_USE trl_result solution_init(const trl_context *ctx, const struct optics *optics,
+                                      const struct solver_settings *settings, struct solution *out);
+void solution_finish(const trl_context *ctx, struct solution *solution);
+
+#endif // SCATTER_SOLVER_H

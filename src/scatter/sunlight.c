@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "scatter/sunlight.h"
+
+#include <math.h>
+
+enum { LEVELS = 96, COLUMNS = 256, DISC_NODES = 12, NODES_PER_SHELL = 40 };
+
+static const double POINT_DISC_RAD = 1e-4; // stands for a star without extent
+
+struct sunlight_row sunlight_row_at(double ground_radius_m, double radius_m, double disc_rad)
+{
+    const double horizon_rad = M_PI - asin(fmin(1, ground_radius_m / radius_m));
+    const double lowest = cos(fmin(M_PI, horizon_rad + disc_rad));
+    return (struct sunlight_row){lowest, 1 / log1p((1 - lowest) / SUNLIGHT_SOFT)};
+}
+
+static double row_coordinate(struct sunlight_row row, double mu)
+{
+    return log1p(fmax(0, mu - row.lowest_mu) / SUNLIGHT_SOFT) * row.scale;
+}
+
+static double row_mu(struct sunlight_row row, double coordinate)
+{
+    return row.lowest_mu + SUNLIGHT_SOFT * expm1(coordinate / row.scale);
+}
+
+// Columns to the top of the medium over (level, coordinate) of a point star, one plane per
+// constituent.
+struct columns {
+    const struct optics *optics;
+    double *length_m;
+};
+
+static double *columns_at(const struct columns *columns, int level, int column)
+{
+    return columns->length_m + ((size_t)level * COLUMNS + (size_t)column) * MEDIUM_MAX_CONSTITUENTS;
+}
+
+static double level_radius(const struct optics *optics, int level)
+{
+    return optics->ground_radius_m + optics_altitude(optics, (double)level / (LEVELS - 1));
+}
+
+static void fill_column_level(const struct columns *columns, const struct ray_rules *rules,
+                              struct ray *ray, int level)
+{
+    const struct optics *optics = columns->optics;
+    const double radius_m = level_radius(optics, level);
+    const struct sunlight_row row = sunlight_row_at(optics->ground_radius_m, radius_m, 0);
+    for (int c = 0; c < COLUMNS; c++) {
+        // A hair above the horizon, lest rounding makes the lowest ray hit the ground.
+        const double mu = fmin(1, row_mu(row, (double)c / (COLUMNS - 1)) + 1e-12);
+        const struct ray_desc desc = {
+            .radius_m = radius_m, .mu = mu, .nodes_per_shell = NODES_PER_SHELL, .end_m = INFINITY};
+        ray_init(ray, optics, rules, &desc);
+        for (int i = 0; i < optics->constituent_count; i++) {
+            columns_at(columns, level, c)[i] = ray->column_m[i];
+        }
+    }
+}
+
+static lanes transmittance_of_point(const struct columns *columns, int level,
+                                    struct sunlight_row row, double mu)
+{
+    const double position = fmin(row_coordinate(row, mu), 1) * (COLUMNS - 1);
+    const int below = position < COLUMNS - 2 ? (int)position : COLUMNS - 2;
+    const double part = position - below;
+    const double *a = columns_at(columns, level, below);
+    const double *b = columns_at(columns, level, below + 1);
+    lanes depth = {0};
+    for (int i = 0; i < columns->optics->constituent_count; i++) {
+        depth += columns->optics->extinction_per_m[i] * (float)(a[i] + part * (b[i] - a[i]));
+    }
+    return lanes_exp_negative(-depth);
+}
+
+// Means over the disc, which is cut into horizontal chords of length 2 sqrt(1 - y^2): y in [-1, 1]
+// is the height in disc radii; the part below the horizon is dark. y = sin(angle) makes the
+// integrand smooth.
+static void average_disc(const struct columns *columns, const struct gauss *rule, int level,
+                         double disc_rad, double mu, lanes *transmittance, lanes *irradiance)
+{
+    const struct optics *optics = columns->optics;
+    const double radius_m = level_radius(optics, level);
+    const struct sunlight_row row = sunlight_row_at(optics->ground_radius_m, radius_m, 0);
+    const double zenith_rad = acos(fmin(fmax(mu, -1), 1));
+    const double horizon_rad = acos(row.lowest_mu);
+    const double lowest = fmin(fmax((zenith_rad - horizon_rad) / disc_rad, -1), 1);
+    const double from = asin(lowest);
+    *transmittance = *irradiance = lanes_set(0);
+    for (int k = 0; k < rule->count; k++) {
+        const double angle = from + (M_PI_2 - from) * rule->node[k];
+        const double point_mu = cos(zenith_rad - disc_rad * sin(angle));
+        const double weight =
+            2 / M_PI * cos(angle) * cos(angle) * (M_PI_2 - from) * rule->weight[k];
+        const lanes light = transmittance_of_point(columns, level, row, point_mu) * (float)weight;
+        *transmittance += light;
+        *irradiance += light * (float)fmax(0, point_mu);
+    }
+}
+
+static void fill_level(struct sunlight *sun, const struct columns *columns,
+                       const struct gauss *rule, int level)
+{
+    const struct sunlight_row row = sunlight_row_at(
+        sun->optics->ground_radius_m, level_radius(sun->optics, level), sun->disc_rad);
+    for (int c = 0; c < COLUMNS; c++) {
+        lanes irradiance;
+        average_disc(columns, rule, level, sun->disc_rad, row_mu(row, (double)c / (COLUMNS - 1)),
+                     &sun->transmittance[level * COLUMNS + c], &irradiance);
+        if (level == 0) {
+            sun->ground_irradiance[c] = irradiance;
+        }
+    }
+}
+
+static void fill_table(struct sunlight *sun, const struct columns *columns,
+                       const struct ray_rules *rules, struct ray *scratch, int scratch_count)
+{
+    struct gauss rule;
+    gauss_init(&rule, DISC_NODES);
+#pragma omp parallel for schedule(dynamic) num_threads(scratch_count)
+    for (int level = 0; level < LEVELS; level++) {
+        const unsigned state = lanes_flush_denormals();
+        fill_column_level(columns, rules, &scratch[lanes_thread()], level);
+        fill_level(sun, columns, &rule, level);
+        lanes_restore(state);
+    }
+}
+
+trl_result sunlight_init(const trl_context *ctx, const struct optics *optics,
+                         const struct ray_rules *rules, struct sunlight *out)
+{
+    *out = (struct sunlight){.optics = optics, .levels = LEVELS, .columns = COLUMNS};
+    out->disc_rad = fmax(optics->medium->star_angular_radius_rad, POINT_DISC_RAD);
+    out->transmittance = mem_alloc(ctx, (size_t)LEVELS * COLUMNS, sizeof(lanes));
+    out->ground_irradiance = mem_alloc(ctx, COLUMNS, sizeof(lanes));
+    const int threads = lanes_max_threads();
+    struct columns columns = {
+        optics, mem_alloc(ctx, (size_t)LEVELS * COLUMNS * MEDIUM_MAX_CONSTITUENTS, sizeof(double))};
+    struct ray *scratch = mem_alloc(ctx, (size_t)threads, sizeof *scratch);
+    const bool has_memory =
+        out->transmittance && out->ground_irradiance && columns.length_m && scratch;
+    if (has_memory) {
+        fill_table(out, &columns, rules, scratch, threads);
+    }
+    mem_free(ctx, columns.length_m);
+    mem_free(ctx, scratch);
+    if (!has_memory) {
+        sunlight_finish(ctx, out);
+        return TRL_ERROR_MEMORY;
+    }
+    return TRL_OK;
+}
+
+void sunlight_finish(const trl_context *ctx, struct sunlight *sun)
+{
+    mem_free(ctx, sun->transmittance);
+    mem_free(ctx, sun->ground_irradiance);
+    *sun = (struct sunlight){0};
+}
+
+static lanes interpolate(const lanes *row, double coordinate)
+{
+    const double position = fmin(coordinate, 1) * (COLUMNS - 1);
+    const int below = position < COLUMNS - 2 ? (int)position : COLUMNS - 2;
+    const float part = (float)(position - below);
+    return row[below] + (row[below + 1] - row[below]) * part;
+}
+
+void sunlight_at(const struct sunlight *sun, double radius_m, double mu, lanes *transmittance)
+{
+    const struct optics *optics = sun->optics;
+    const struct sunlight_row row =
+        sunlight_row_at(optics->ground_radius_m, radius_m, sun->disc_rad);
+    const double coordinate = row_coordinate(row, mu);
+    const double position = optics_shell(optics, radius_m - optics->ground_radius_m) * (LEVELS - 1);
+    const int level = position < LEVELS - 2 ? (int)position : LEVELS - 2;
+    const float part = (float)(position - level);
+    const lanes below = interpolate(sun->transmittance + (size_t)level * COLUMNS, coordinate);
+    const lanes above = interpolate(sun->transmittance + (size_t)(level + 1) * COLUMNS, coordinate);
+    *transmittance = below + (above - below) * part;
+}
+
+void sunlight_ground_at(const struct sunlight *sun, double mu, lanes *irradiance)
+{
+    const double radius_m = sun->optics->ground_radius_m;
+    *irradiance =
+        interpolate(sun->ground_irradiance,
+                    row_coordinate(sunlight_row_at(radius_m, radius_m, sun->disc_rad), mu));
+}

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Compiled with -O3 -ffast-math: hot. Nothing here may depend on infinities or NaN.
+#include "scatter/transport.h"
+
+#include <math.h>
+
+enum { SUN_COLUMNS = 256 };
+
+struct transport_scratch {
+    int max_count;
+    float *sun_mu;      // [max_count] at the node
+    float *cos_azimuth; // [max_count] of the ray, at the node
+    float *part;        // [max_count] interpolation weight
+    int *index;         // [max_count] interpolation cell
+    lanes *row;         // [max(SUN_COLUMNS, suns * (lmax + 1))]
+};
+
+trl_result transport_scratch_create(const trl_context *ctx, int max_count, int suns,
+                                    struct transport_scratch **out)
+{
+    *out = mem_alloc(ctx, 1, sizeof **out);
+    if (!*out) {
+        return TRL_ERROR_MEMORY;
+    }
+    struct transport_scratch *s = *out;
+    const size_t row = (size_t)suns * (OPTICS_MAX_DEGREE + 1);
+    s->max_count = max_count;
+    s->sun_mu = mem_alloc(ctx, (size_t)max_count, sizeof *s->sun_mu);
+    s->cos_azimuth = mem_alloc(ctx, (size_t)max_count, sizeof *s->cos_azimuth);
+    s->part = mem_alloc(ctx, (size_t)max_count, sizeof *s->part);
+    s->index = mem_alloc(ctx, (size_t)max_count, sizeof *s->index);
+    s->row = mem_alloc(ctx, row > SUN_COLUMNS ? row : SUN_COLUMNS, sizeof(lanes));
+    if (!s->sun_mu || !s->cos_azimuth || !s->part || !s->index || !s->row) {
+        transport_scratch_destroy(ctx, out);
+        return TRL_ERROR_MEMORY;
+    }
+    return TRL_OK;
+}
+
+void transport_scratch_destroy(const trl_context *ctx, struct transport_scratch **scratch)
+{
+    struct transport_scratch *s = *scratch;
+    if (!s) {
+        return;
+    }
+    mem_free(ctx, s->sun_mu);
+    mem_free(ctx, s->cos_azimuth);
+    mem_free(ctx, s->part);
+    mem_free(ctx, s->index);
+    mem_free(ctx, s->row);
+    mem_free(ctx, s);
+    *scratch = NULL;
+}
+
+// The star's zenith angle at a point of the ray: parallel light, so nu is the same all along.
+LANES_INLINE float sun_mu_at(float eye_radius, float distance, float inverse_radius,
+                             float eye_sun_mu, float nu)
+{
+    const float mu = (eye_radius * eye_sun_mu + distance * nu) * inverse_radius;
+    return mu < -1.0f ? -1.0f : mu > 1.0f ? 1.0f : mu;
+}
+
+LANES_INLINE void place_in_sunlight(const struct sunlight *sun, const struct ray *ray,
+                                    const struct ray_node *node,
+                                    const struct transport_family *family,
+                                    struct transport_scratch *s)
+{
+    const struct sunlight_row row =
+        sunlight_row_at(sun->optics->ground_radius_m, node->radius_m, sun->disc_rad);
+    const float eye_radius = (float)ray->eye_radius_m;
+    const float distance = (float)node->distance_m;
+    const float inverse_radius = (float)(1 / node->radius_m);
+    const float lowest = (float)row.lowest_mu;
+    const float scale = (float)row.scale * (SUN_COLUMNS - 1);
+    float *restrict part = s->part;
+    int *restrict index = s->index;
+#pragma omp simd
+    for (int t = 0; t < family->count; t++) {
+        const float mu =
+            sun_mu_at(eye_radius, distance, inverse_radius, family->sun_mu[t], family->nu[t]);
+        const float above = mu - lowest;
+        const float x =
+            logf(1.0f + (above > 0.0f ? above : 0.0f) * (float)(1 / SUNLIGHT_SOFT)) * scale;
+        const float inside = x < (float)SUN_COLUMNS - 1.001f ? x : (float)SUN_COLUMNS - 1.001f;
+        index[t] = (int)inside;
+        part[t] = inside - (float)(int)inside;
+    }
+}
+
+// Sunlight over the whole sun coordinate at one altitude, times the attenuation from the node to
+// the eye.
+LANES_INLINE void fill_sun_row(const struct sunlight *sun, const struct ray_node *node,
+                               const lanes *attenuation, lanes *row)
+{
+    const double position = node->shell * (sun->levels - 1);
+    const int level = position < sun->levels - 2 ? (int)position : sun->levels - 2;
+    const float part = (float)(position - level);
+    const lanes *below = sun->transmittance + level * SUN_COLUMNS;
+    const lanes *above = below + SUN_COLUMNS;
+    for (int c = 0; c < SUN_COLUMNS; c++) {
+        row[c] = (below[c] + (above[c] - below[c]) * part) * *attenuation;
+    }
+}
+
+LANES_INLINE lanes attenuation_to_eye(const struct optics *optics, const double *column_m)
+{
+    lanes depth = {0};
+    for (int i = 0; i < optics->constituent_count; i++) {
+        depth += optics->extinction_per_m[i] * (float)column_m[i];
+    }
+    return lanes_exp_negative(-depth);
+}
+
+LANES_CLONES void transport_add_single(const struct sunlight *sun, const struct ray *ray,
+                                       const struct transport_family *family,
+                                       const struct transport_channels *channels,
+                                       lanes *const *radiance, struct transport_scratch *s)
+{
+    const struct optics *optics = sun->optics;
+    for (int k = 0; k < ray->node_count; k++) {
+        const struct ray_node *node = &ray->node[k];
+        const lanes attenuation = attenuation_to_eye(optics, node->column_m);
+        place_in_sunlight(sun, ray, node, family, s);
+        fill_sun_row(sun, node, &attenuation, s->row);
+        for (int i = 0; i < optics->constituent_count; i++) {
+            if (channels->channel[i] < 0 || node->density[i] <= 0) {
+                continue;
+            }
+            lanes *restrict out = radiance[channels->channel[i]];
+            const float *phase = channels->phase[i];
+            const lanes scattered =
+                optics->scattering_per_m[i] * (float)(node->density[i] * node->weight_m);
+            for (int t = 0; t < family->count; t++) {
+                const lanes *cell = s->row + s->index[t];
+                const lanes light = cell[0] + (cell[1] - cell[0]) * s->part[t];
+                out[t] += light * (phase ? scattered * phase[t] : scattered);
+            }
+        }
+    }
+}
+
+// Where the family's suns and azimuths stand at the node, in the grid of the moments. A sun below
+// the grid stays on its darkest row.
+LANES_INLINE void place_in_moments(const struct moments *m, const struct ray *ray,
+                                   const struct ray_node *node,
+                                   const struct transport_family *family,
+                                   struct transport_scratch *s)
+{
+    const float eye_radius = (float)ray->eye_radius_m;
+    const float distance = (float)node->distance_m;
+    const float inverse_radius = (float)(1 / node->radius_m);
+    const float mu = (float)node->mu;
+    const float sine = (float)fmax(node->sine, 1e-6);
+    const float centre = (float)m->sun_centre;
+    const float inverse_width = (float)(1 / m->sun_width);
+    const float first = (float)m->sun_first;
+    const float scale = (float)m->sun_scale;
+    const float last = (float)m->suns - 1.001f;
+    float *restrict part = s->part;
+    float *restrict cos_azimuth = s->cos_azimuth;
+    int *restrict index = s->index;
+#pragma omp simd
+    for (int t = 0; t < family->count; t++) {
+        const float sun_mu =
+            sun_mu_at(eye_radius, distance, inverse_radius, family->sun_mu[t], family->nu[t]);
+        const float sun_sine = sqrtf(1.0f - sun_mu * sun_mu) + 1e-6f;
+        const float cosine = (family->nu[t] - mu * sun_mu) / (sine * sun_sine);
+        cos_azimuth[t] = cosine < -1.0f ? -1.0f : cosine > 1.0f ? 1.0f : cosine;
+        // asinh, odd: the logarithm of a sum without cancellation
+        const float z = (sun_mu - centre) * inverse_width;
+        const float magnitude = z < 0.0f ? -z : z;
+        const float root = logf(magnitude + sqrtf(magnitude * magnitude + 1.0f));
+        const float x = ((z < 0.0f ? -root : root) - first) * scale;
+        const float inside = x < 0.0f ? 0.0f : x < last ? x : last;
+        index[t] = (int)inside;
+        part[t] = inside - (float)(int)inside;
+    }
+}
+
+// The source's azimuth harmonics over the sun grid at one node, folded with the attenuation and the
+// length of the node: row[sun][m] = sum over l of B_l T w Y_lm(mu) a_lm(altitude, sun), B_l = sum_i
+// scattering_i p_il.
+LANES_INLINE void fill_source_row(const struct moments *m, const struct ray_node *node,
+                                  const lanes *attenuation, int first_sun, int last_sun, lanes *row)
+{
+    const struct optics *optics = m->optics;
+    const int orders = m->lmax + 1;
+    const int harmonics = harmonic_count(m->lmax);
+    double harmonic[(OPTICS_MAX_DEGREE + 1) * (OPTICS_MAX_DEGREE + 2) / 2];
+    harmonic_values(m->lmax, node->mu, harmonic);
+    lanes factor[(OPTICS_MAX_DEGREE + 1) * (OPTICS_MAX_DEGREE + 2) / 2];
+    for (int l = 0; l < orders; l++) {
+        lanes scattered = {0};
+        for (int i = 0; i < optics->constituent_count; i++) {
+            scattered += optics->scattering_per_m[i] *
+                         (float)(node->density[i] * node->weight_m * optics->moment[i][l]);
+        }
+        for (int o = 0; o <= l; o++) {
+            factor[harmonic_index(l, o)] =
+                scattered * *attenuation * (float)harmonic[harmonic_index(l, o)];
+        }
+    }
+    const double position = node->shell * (m->levels - 1);
+    const int level = position < m->levels - 2 ? (int)position : m->levels - 2;
+    const float part = (float)(position - level);
+    const lanes *below = m->radiance + (size_t)level * m->suns * harmonics;
+    const lanes *above = below + (size_t)m->suns * harmonics;
+    for (int sun = first_sun; sun <= last_sun; sun++) {
+        const lanes *a = below + sun * harmonics;
+        const lanes *b = above + sun * harmonics;
+        lanes *out = row + sun * orders;
+        for (int o = 0; o < orders; o++) {
+            lanes sum = {0};
+            for (int l = o; l < orders; l++) {
+                const int h = harmonic_index(l, o);
+                sum += (a[h] + (b[h] - a[h]) * part) * factor[h];
+            }
+            out[o] = sum;
+        }
+    }
+}
+
+// cos(m phi) by Chebyshev's recurrence, summed with the interpolated harmonics.
+LANES_INLINE void add_source(const struct transport_scratch *s, int count, int orders,
+                             lanes *restrict radiance)
+{
+    for (int t = 0; t < count; t++) {
+        const lanes *below = s->row + s->index[t] * orders;
+        const lanes *above = below + orders;
+        const float part = s->part[t];
+        const float twice = 2.0f * s->cos_azimuth[t];
+        float before = 1.0f;
+        float now = s->cos_azimuth[t];
+        lanes sum = below[0] + (above[0] - below[0]) * part;
+        for (int o = 1; o < orders; o++) {
+            sum += (below[o] + (above[o] - below[o]) * part) * now;
+            const float next = twice * now - before;
+            before = now;
+            now = next;
+        }
+        radiance[t] += sum;
+    }
+}
+
+LANES_CLONES void transport_add_multiple(const struct moments *moments, const struct ray *ray,
+                                         const struct transport_family *family, lanes *radiance,
+                                         struct transport_scratch *s)
+{
+    for (int k = 0; k < ray->node_count; k++) {
+        const struct ray_node *node = &ray->node[k];
+        const lanes attenuation = attenuation_to_eye(moments->optics, node->column_m);
+        place_in_moments(moments, ray, node, family, s);
+        int first = moments->suns;
+        int last = 0;
+        for (int t = 0; t < family->count; t++) {
+            first = s->index[t] < first ? s->index[t] : first;
+            last = s->index[t] > last ? s->index[t] : last;
+        }
+        fill_source_row(moments, node, &attenuation, first, last + 1, s->row);
+        add_source(s, family->count, moments->lmax + 1, radiance);
+    }
+}
+
+LANES_INLINE lanes irradiance_at(const struct moments *m, double mu)
+{
+    const double x = (asinh((mu - m->sun_centre) / m->sun_width) - m->sun_first) * m->sun_scale;
+    const double inside = fmin(fmax(x, 0), m->suns - 1.001);
+    const int index = (int)inside;
+    return m->irradiance[index] +
+           (m->irradiance[index + 1] - m->irradiance[index]) * (float)(inside - index);
+}
+
+LANES_CLONES void transport_add_ground(const struct sunlight *sun, const struct moments *moments,
+                                       const struct ray *ray, const struct transport_family *family,
+                                       lanes *radiance)
+{
+    if (!ray->hits_ground) {
+        return;
+    }
+    const struct optics *optics = sun ? sun->optics : moments->optics;
+    const lanes reflected =
+        optics->ground_albedo * attenuation_to_eye(optics, ray->column_m) * (float)(1 / M_PI);
+    for (int t = 0; t < family->count; t++) {
+        const double mu = fmin(1, fmax(-1, (ray->eye_radius_m * (double)family->sun_mu[t] +
+                                            ray->end_m * (double)family->nu[t]) /
+                                               optics->ground_radius_m));
+        lanes irradiance = {0};
+        if (sun) {
+            sunlight_ground_at(sun, mu, &irradiance);
+        }
+        if (moments) {
+            irradiance += irradiance_at(moments, mu);
+        }
+        radiance[t] += reflected * irradiance;
+    }
+}
