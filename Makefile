@@ -10,7 +10,7 @@ SIZE ?= 1920x1080
 VIEWS ?= orbit himalaya-morning rockies-sunset
 
 # Mesa compiles shaders at the first draw, which takes longer than drawing; what it made is kept.
-export MESA_SHADER_CACHE_DIR ?= $(CURDIR)/build/shader-cache
+export MESA_SHADER_CACHE_DIR ?= $(or $(XDG_CACHE_HOME),$(HOME)/.cache)/terrella/shaders
 
 .PHONY: help setup build data demo view test bench clean
 
@@ -22,6 +22,7 @@ setup: ## installs the packages that are missing (root or sudo)
 
 build: setup ## builds the program: build/terrella
 	@tools/build.sh $(BUILD)
+	@mkdir -p "$$MESA_SHADER_CACHE_DIR"
 	@ln -sfn release/apps/cli/terrella $(TERRELLA)
 
 data: build ## fetches Earth's data into the cache and says where it is

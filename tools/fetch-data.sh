@@ -271,7 +271,7 @@ make_rasters() { # prepare-tool
     mkdir -p "$unpacked" "$data/earth"
     unpack_all "$unpacked"
     rm -f "$data/earth/stamp"
-    echo "data: making the rasters of Earth"
+    echo "data: making the rasters of Earth (about 15 s)"
     "$1" "$unpacked" "$data/earth" || die "the rasters could not be made"
     rm -rf "$unpacked"
     echo "$stamp" >"$data/earth/stamp"
