@@ -71,7 +71,8 @@ TRL_API void trl_renderer_destroy(trl_renderer **renderer);
 /// while it stays the same. Does not wait for the GPU. In a shared context all GL state that it
 /// touches is left changed: the caller sets what it needs afterwards. A camera below the ground, or
 /// less than half a metre above it, is lifted to that height.
-/// @param view       every number finite; ranges as in trl_view
+/// @param view       every number finite; ranges as in trl_view, altitude up to 10000 radii, EV
+/// within 64 of 0
 /// @param width      [1, TRL_RENDERER_MAX_SIDE], with height at most TRL_RENDERER_MAX_PIXELS
 /// @param elapsed_s  since the last frame: automatic exposure follows the picture within about a
 /// second of it.
@@ -126,7 +127,8 @@ TRL_API TRL_MUST_USE trl_result trl_renderer_resolve(const trl_renderer *rendere
 typedef struct trl_timing {
     const char *name; ///< "surface", "sky", …; lives as long as the library
     double gpu_ms;    ///< between its first and last command on the GPU; 0 without timer queries
-    double cpu_ms;    ///< on the calling thread
+    double cpu_ms;    ///< on the calling thread; software GL often draws one pass while the next is
+                      ///< asked for
 } trl_timing;
 
 /// Times of the passes of the last frame, in order; none unless the renderer measures time.
@@ -145,7 +147,7 @@ typedef struct trl_gpu_info {
     uint32_t max_texture_size, max_3d_size, max_array_layers;
 } trl_gpu_info;
 
-/// Makes a headless context, asks it, and frees it.
+/// Makes a headless context, asks it, and frees it. Leaves no context current on this thread.
 /// @return TRL_OK; TRL_ERROR_INVALID; TRL_ERROR_UNSUPPORTED (none that can be used);
 /// TRL_ERROR_MEMORY
 TRL_API TRL_MUST_USE trl_result trl_gpu_info_read(trl_context *ctx, trl_gpu_info *out);

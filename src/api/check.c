@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "api/check.h"
+
+#include <float.h>
+#include <math.h>
+
+struct range {
+    const char *name;
+    double value, min, max;
+};
+
+static trl_result check_range(const trl_context *ctx, const struct range *range)
+{
+    if (range->value >= range->min && range->value <= range->max) { // a NaN is in no range
+        return TRL_OK;
+    }
+    if (range->max == DBL_MAX) {
+        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                        "view: %s is %g, but must be finite", range->name, range->value);
+    }
+    return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                    "view: %s is %g, but must be from %g to %g", range->name, range->value,
+                    range->min, range->max);
+}
+
+static trl_result check_choices(const trl_context *ctx, const trl_view *view)
+{
+    TRL_REQUIRE(ctx, view->altitude_mode == TRL_ALTITUDE_SPHERE ||
+                         view->altitude_mode == TRL_ALTITUDE_GROUND);
+    TRL_REQUIRE(ctx, view->sun_mode == TRL_SUN_SUBSOLAR || view->sun_mode == TRL_SUN_LOCAL);
+    TRL_REQUIRE(ctx,
+                view->tone_curve == TRL_TONE_FILMIC || view->tone_curve == TRL_TONE_EXPONENTIAL);
+    return TRL_OK;
+}
+
+trl_result check_view(const trl_context *ctx, const trl_view *view, double radius_m)
+{
+    const double quarter = M_PI / 2 * (1 + 1e-9); // a right angle that came through degrees
+    const double any = DBL_MAX;
+    const double exposures = 64; // stops: 2^64 is far within floats
+    const struct range ranges[] = {
+        {"latitude_rad", view->latitude_rad, -quarter, quarter},
+        {"longitude_rad", view->longitude_rad, -any, any},
+        {"altitude_m", view->altitude_m, -radius_m, 1e4 * radius_m},
+        {"heading_rad", view->heading_rad, -any, any},
+        {"pitch_rad", view->pitch_rad, -any, any},
+        {"roll_rad", view->roll_rad, -any, any},
+        {"vertical_fov_rad", view->vertical_fov_rad, 1e-6, M_PI - 1e-6},
+        {"sun_latitude_or_elevation_rad", view->sun_latitude_or_elevation_rad, -quarter, quarter},
+        {"sun_longitude_or_azimuth_rad", view->sun_longitude_or_azimuth_rad, -any, any},
+        {"exposure_ev100", view->has_fixed_exposure ? view->exposure_ev100 : 0, -exposures,
+         exposures},
+        {"exposure_bias_ev", view->exposure_bias_ev, -exposures, exposures},
+    };
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        const trl_result result = check_range(ctx, &ranges[i]);
+        if (result != TRL_OK) {
+            return result;
+        }
+    }
+    return check_choices(ctx, view);
+}

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef FRAME_DAYLIGHT_H
+#define FRAME_DAYLIGHT_H
+// What a scene's star does to white and to the bare ground, as an eye sees it.
+
+#include "scatter/medium.h"
+
+// Luminance, in cd m^-2, of a white Lambertian wall that faces the star above the atmosphere.
+double daylight_wall_cd_m2(const struct medium *medium);
+
+// The ground's albedo in linear sRGB, relative to white in the star's light; in [0, 1].
+void daylight_ground_albedo(const struct medium *medium, float rgb[3]);
+
+#endif // FRAME_DAYLIGHT_H
