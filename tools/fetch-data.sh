@@ -18,7 +18,6 @@ data=${TERRELLA_DATA:-${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}/terrella/data}
 sources=${TERRELLA_DATA_SOURCES:-$tools/data-sources.txt}
 archives=$data/packages
 outputs=(elevation.tif water.tif colorado.tif colour.tif lights.tif)
-start=$SECONDS
 
 die() {
     echo "data: $*" >&2
@@ -71,7 +70,7 @@ watch_progress() { # pid folder name bytes
         local have
         have=$(du -cb "$2"/* 2>/dev/null | sed -n '$s/\t.*//p')
         printf '\rdata: %s: %d of %d MB, %d s ' "$3" "$(megabytes "${have:-0}")" "$(megabytes "$4")" \
-            $((SECONDS - start))
+            $((SECONDS - began))
         sleep 0.3
     done
     printf '\r\033[K'

@@ -592,21 +592,32 @@ static void release_plain(void *user, void *block)
     free(block);
 }
 
-static void no_memory_for_a_grid_is_told(void **state)
+// Each allocation in turn fails: the call says so and leaves nothing behind (the sanitised build
+// looks for leaks).
+static void every_failed_allocation_is_told(void **state)
 {
     struct fixture *f = *state;
+    const char *path = make_file(f, &GLOBE);
     int left = 100;
     trl_context_desc desc = trl_context_desc_default();
     desc.allocator = (trl_allocator){allocate_counted, reallocate_plain, release_plain, &left};
     trl_context *ctx = NULL;
     assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
-    struct raster raster;
-    assert_int_equal(raster_open(ctx, make_file(f, &GLOBE), &raster), TRL_OK);
-    left = 0; // the next one fails
-    struct raster_grid grid;
-    assert_int_equal(raster_grid_load(&raster, 0, &grid), TRL_ERROR_MEMORY);
-    assert_null(grid.values);
-    raster_finish(&raster);
+    trl_result result = TRL_ERROR_MEMORY;
+    int allowed = 0;
+    for (; result != TRL_OK && allowed < 10; allowed++) {
+        left = allowed;
+        struct raster raster;
+        struct raster_grid grid = {0};
+        result = raster_open(ctx, path, &raster);
+        if (result == TRL_OK) {
+            result = raster_grid_load(&raster, 0, &grid);
+        }
+        assert_true(result == TRL_OK || (result == TRL_ERROR_MEMORY && !grid.values));
+        raster_grid_finish(&grid);
+        raster_finish(&raster);
+    }
+    assert_int_equal(allowed, 3); // path and values: fails with 0 and 1, goes through with 2
     trl_context_destroy(&ctx);
 }
 
@@ -635,7 +646,7 @@ int main(void)
         TEST(poles_join_opposite_meridians),
         TEST(outside_an_inset_there_is_nothing),
         TEST(holes_take_their_neighbours_mean),
-        TEST(no_memory_for_a_grid_is_told),
+        TEST(every_failed_allocation_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
