@@ -3,6 +3,7 @@
 // Colour of the ground and light of the cities: the largest picture that is there, as it is.
 #include "prepare.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -95,12 +96,37 @@ static trl_result prepare_colour(const struct places *places)
     return result;
 }
 
+// Red of the brightest cities in each picture.
+static const double WHITE_4K = 110;
+static const double WHITE_SMALL = 255;
+
+// The published pictures show lights over moonlit land and ice, which is blue, painted in. What is
+// not redder than that is no lamp. The rest is stretched until the brightest cities are white.
+static void keep_lamps(struct picture *picture, double white)
+{
+    const size_t count = (size_t)picture->width * picture->height;
+    const double gain = 255 / white;
+    for (size_t i = 0; i < count; i++) {
+        uint8_t *pixel = picture->pixels + i * picture->bands;
+        const double excess = gain * (pixel[0] - 0.6 * pixel[2]) - 12;
+        const double lamp = fmin(1, fmax(0, excess / 40));
+        for (uint32_t band = 0; band < picture->bands; band++) {
+            pixel[band] = (uint8_t)lrint(fmin(255, lamp * gain * pixel[band]));
+        }
+    }
+}
+
 static trl_result prepare_lights(const struct places *places)
 {
     const bool has_4k = source_exists(places, CITY_LIGHTS_4K);
     struct picture picture;
     trl_result result = picture_read(places, has_4k ? CITY_LIGHTS_4K : CITY_LIGHTS_SMALL, &picture);
+    if (result == TRL_OK && picture.bands < 3) {
+        result = trl_fail(places->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                          "the picture of the night is not in colour");
+    }
     if (result == TRL_OK) {
+        keep_lamps(&picture, has_4k ? WHITE_4K : WHITE_SMALL);
         result = write_picture(places, "lights.tif", &picture);
     }
     picture_finish(places, &picture);
