@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// From radiance to the picture. In: radiance (RGBA32F, linear sRGB cd m^-2), exposure (RG32F, 1 x
-// 1). Out: RGBA8, sRGB codes, dithered. Defines: TONE_IS_EXPONENTIAL chooses the curve.
+// From radiance to the picture. In: radiance (RGBA32F, linear sRGB cd m^-2), exposure (RG32F, one
+// texel). Out: RGBA8, sRGB codes, dithered. TONE_IS_EXPONENTIAL chooses the other curve.
+// validate:
+// validate: TONE_IS_EXPONENTIAL
 
 #include "shared/tone.glsl"
 
