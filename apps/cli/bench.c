@@ -21,7 +21,7 @@ struct bench {
 static const struct bench benches[] = {
     {"solver", "light in Earth's air: 16 wavelengths, all orders to 0.1 %", bench_run_solver},
     {"tables", "the 4D table from that solution", bench_run_tables},
-    {"sky-frame", "frames of a bare sphere from the ground, at the limb, of the full disc",
+    {"sky-frame", "frames of a bare sphere: from the ground, at the limb, full disc",
      bench_run_sky_frame},
     {"start", "from program start to the first finished picture, caches warm", bench_run_start},
 };
@@ -38,7 +38,7 @@ static const char about[] =
     "Measures the benches named, or all:\n"
     "  solver     light in Earth's air: 16 wavelengths, all orders to 0.1 %\n"
     "  tables     the 4D table from that solution\n"
-    "  sky-frame  frames of a bare sphere from the ground, at the limb, of the full disc\n"
+    "  sky-frame  frames of a bare sphere: from the ground, at the limb, full disc\n"
     "  start      from program start to the first finished picture, caches warm\n";
 static const char examples[] = "  terrella bench\n"
                                "  terrella bench solver sky-frame --json --runs 5\n";

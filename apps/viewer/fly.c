@@ -133,7 +133,10 @@ void fly_look(struct fly_camera *camera, double right_rad, double up_rad)
         vector_scale(zenith, is_upright ? 1.0 - weight : weight - 1.0), vector_scale(up, weight)));
     double pitch_rad = -up_rad;
     if (weight < 1.0 && is_upright) {
-        const double now = find_pitch(camera);
+        // Beyond the zenith by a rounding counts as beyond, or the roundings would double with each
+        // call.
+        const double nearest = find_pitch(camera);
+        const double now = vector_dot(up, zenith) < 0.0 ? copysign(pi, nearest) - nearest : nearest;
         pitch_rad = clamp(now + pitch_rad, -pi / 2.0, pi / 2.0) - now;
     }
     turn_frame(camera, rotation_about(fly_camera_right(camera), pitch_rad));

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 the Terrella authors
+# SPDX-License-Identifier: MIT
+"""terrella bench and terrella info: the form of what they print. No time is judged here."""
+
+import json
+import unittest
+
+from process import SCENES, ProgramTest, require_gl
+
+
+class Bench(ProgramTest):
+    def measure(self, *words):
+        done = self.expect_success("bench", *words, "--json", "--runs", "2", "--scene", self.write_scene())
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
+    def check_form(self, bench, name):
+        self.assertEqual(list(bench), ["bench", "machine", "rows"])
+        self.assertEqual(bench["bench"], name)
+        self.assertEqual(list(bench["machine"]), ["cpu", "cores", "load_average", "gl_renderer"])
+        self.assertGreater(len(bench["rows"]), 0)
+        for row in bench["rows"]:
+            self.assertEqual(list(row), ["case", "metric", "unit", "median", "min", "runs"])
+            self.assertLessEqual(row["min"], row["median"])
+            self.assertEqual(row["runs"], 2)
+
+    def test_solver_and_tables(self):
+        solver, tables = self.measure("solver", "tables")
+        self.check_form(solver, "solver")
+        self.check_form(tables, "tables")
+        rows = {row["metric"]: row for row in solver["rows"]}
+        self.assertEqual(rows["solve"]["unit"], "s")
+        self.assertGreater(rows["solve"]["min"], 0.0)
+        self.assertGreaterEqual(rows["orders"]["min"], 2)
+        self.assertGreater(rows["peak memory"]["min"], 1.0)
+        self.assertGreater({row["metric"]: row for row in tables["rows"]}["table"]["min"], 0.0)
+
+    def test_frames(self):
+        frames, = self.measure("sky-frame")
+        self.check_form(frames, "sky-frame")
+        whole = [row for row in frames["rows"] if row["metric"] == "frame"]
+        self.assertEqual({row["case"] for row in whole},
+                         {f"{view} {size}" for view in ["ground", "orbit"] for size in ["1024x576", "1920x1080"]})
+        self.assertTrue(any(row["metric"].startswith("pass ") for row in frames["rows"]))
+
+    def test_start(self):
+        start, = self.measure("start")
+        self.check_form(start, "start")
+        self.assertEqual(start["rows"][0]["unit"], "s")
+        self.assertEqual(list(self.work.iterdir()), [])
+
+    def test_a_table_for_people(self):
+        done = self.expect_success("bench", "solver", "--runs", "1", "--scene", self.write_scene())
+        self.assertIn("peak memory", done.stdout)
+
+
+class Info(ProgramTest):
+    def test_says_what_there_is(self):
+        text = self.expect_success("info", SCENES / "earth.json").stdout
+        for word in ["terrella ", "GDAL ", "viewer ", "data ", "cache ", "OpenGL ", "scene ", "missing"]:
+            self.assertIn(word, text)
+        self.assertIn(str(self.data), text)
+
+    def test_needs_no_gl(self):
+        self.environment.update(LIBGL_DRIVERS_PATH="/nonexistent", __EGL_VENDOR_LIBRARY_DIRS="/nonexistent",
+                                DISPLAY="")
+        text = self.expect_success("info").stdout
+        self.assertIn("OpenGL          none", text)
+
+
+if __name__ == "__main__":
+    require_gl()
+    unittest.main(verbosity=2)

@@ -1,0 +1,178 @@
+# SPDX-FileCopyrightText: 2026 the Terrella authors
+# SPDX-License-Identifier: MIT
+"""terrella render: pictures, what is told about them, and what is left when something fails."""
+
+import copy
+import signal
+import struct
+import time
+import unittest
+
+from process import THIN_SCENE, ProgramTest, count_values, read_png, require_gl
+
+SIZE = "96x54"
+
+
+def add_layers(*layers):
+    scene = copy.deepcopy(THIN_SCENE)
+    scene["surface"] = {"layers": list(layers)}
+    return scene
+
+
+def make_tiff(width, height):
+    """A little-endian TIFF of one strip of 16-bit heights, equirectangular by its geographic tags."""
+    pixels = b"".join(struct.pack("<h", (x * y) % 3000) for y in range(height) for x in range(width))
+    scale = struct.pack("<3d", 360.0 / width, 180.0 / height, 0.0)
+    tie = struct.pack("<6d", 0, 0, 0, -180.0, 90.0, 0)
+    keys = struct.pack("<16H", 1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 1, 2048, 0, 1, 4326)
+    blobs_at = 8 + len(pixels)
+    entries = [(256, 3, 1, width), (257, 3, 1, height), (258, 3, 1, 16), (259, 3, 1, 1), (262, 3, 1, 1),
+               (273, 4, 1, 8), (277, 3, 1, 1), (278, 3, 1, height), (279, 4, 1, len(pixels)), (339, 3, 1, 2),
+               (33550, 12, 3, blobs_at), (33922, 12, 6, blobs_at + 24), (34735, 3, 16, blobs_at + 72)]
+    directory_at = blobs_at + 24 + 48 + 32
+    directory = struct.pack("<H", len(entries))
+    for tag, kind, count, value in entries:
+        directory += struct.pack("<HHII", tag, kind, count, value)
+    return struct.pack("<2sHI", b"II", 42, directory_at) + pixels + scale + tie + keys + directory + bytes(4)
+
+
+class Pictures(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write_scene()
+
+    def test_png(self):
+        done = self.expect_success("render", self.scene, "--size", SIZE, "-o", "a.png")
+        self.assertRegex(done.stdout, r"^wrote a\.png: 96x54, \d+\.\d s\n$")
+        width, height, rows = read_png(self.work / "a.png")
+        self.assertEqual((width, height), (96, 54))
+        self.assertGreater(count_values(rows), 10)
+        self.assertEqual([path.name for path in self.work.iterdir()], ["a.png"])
+
+    def test_exr(self):
+        self.expect_success("render", self.scene, "--view", "orbit", "--size", SIZE, "-o", "a.EXR", "--quiet")
+        data = (self.work / "a.EXR").read_bytes()
+        self.assertEqual(data[:4], b"\x76\x2f\x31\x01")
+        at = data.index(b"dataWindow\0box2i\0") + len(b"dataWindow\0box2i\0") + 4
+        self.assertEqual(struct.unpack("<4i", data[at:at + 16]), (0, 0, 95, 53))
+
+    def test_default_name_and_replacement(self):
+        (self.work / "terrella.png").write_text("old")
+        self.expect_success("render", self.scene, "--size", "8x8")
+        self.assertEqual(read_png(self.work / "terrella.png")[:2], (8, 8))
+
+    def test_quiet_and_timings(self):
+        done = self.expect_success("render", self.scene, "--size", "8x8", "--quiet", "--timings")
+        self.assertIn("GPU ms", done.stdout)
+        self.assertNotIn("wrote", done.stdout)
+        self.assertGreater(len(done.stdout.splitlines()), 3)
+        self.assertEqual(done.stderr, "")
+
+    def test_options_change_the_picture(self):
+        def draw(*options):
+            self.expect_success("render", self.scene, "--size", SIZE, "-o", "a.png", *options)
+            return read_png(self.work / "a.png")[2]
+
+        plain = draw("--ev100", "12")
+        self.assertEqual(draw("--ev100", "12"), plain)
+        changes = [["--ev100", "10"], ["--ev100", "12", "--bias", "1"], ["--ev100", "12", "--tone", "exponential"],
+                   ["--ev100", "12", "--sun-elevation", "10"], ["--ev100", "12", "--heading", "200"],
+                   ["--ev100", "12", "--altitude", "50000"], ["--ev100", "12", "--fov", "20"]]
+        for options in changes:
+            self.assertNotEqual(draw(*options), plain, options)
+
+    def test_a_view_from_one_pixel(self):
+        for size in ["1x1", "1x37", "37x1"]:
+            self.expect_success("render", self.scene, "--size", size, "-o", "a.png")
+
+
+class Failures(ProgramTest):
+    def expect_wrong(self, scene, *mentions, output="a.png"):
+        self.expect_failure(1, ["render", scene, "--size", SIZE, "-o", output], mentions)
+
+    def test_output_is_checked_before_the_work(self):
+        scene = self.write_scene(add_layers({"name": "h", "elevation": "missing.tif"}))
+        (self.work / "file").write_text("")
+        (self.work / "folder.png").mkdir()
+        for output in ["missing/a.png", "file/a.png", "folder.png"]:
+            # The raster is missing too, but the output comes first.
+            self.expect_wrong(scene, output, "cannot be written", output=output)
+
+    def test_missing_raster(self):
+        self.expect_wrong(self.write_scene(add_layers({"name": "h", "elevation": "missing.tif"})), "missing.tif")
+
+    def test_optional_raster(self):
+        scene = self.write_scene(add_layers({"name": "h", "elevation": "missing.tif", "optional": True}))
+        self.expect_success("render", scene, "--size", "8x8")
+
+    def test_broken_raster(self):
+        scene = self.write_scene(add_layers({"name": "h", "elevation": "h.tif"}))
+        whole = make_tiff(256, 128)
+        path = self.data / "h.tif"
+        path.write_bytes(whole)
+        self.expect_success("render", scene, "--size", "8x8", "-o", "whole.png")
+        (self.work / "whole.png").unlink()
+        for length in [0, 4, 8, 100, len(whole) // 2, len(whole) - 100, len(whole) - 10]:
+            path.write_bytes(whole[:length])
+            self.expect_wrong(scene, "h.tif")
+        path.write_bytes(b"not a picture at all")
+        self.expect_wrong(scene, "h.tif")
+
+    def test_interruption_leaves_nothing(self):
+        work = self.start_program("render", self.write_scene(), "--size", "4096x4096", "-o", "a.png")
+        time.sleep(0.3)
+        if work.poll() is None:
+            work.send_signal(signal.SIGINT)
+        output, errors = work.communicate(timeout=300)
+        # It may have been quick: then the picture is whole.
+        if work.returncode == 0:
+            self.assertEqual(read_png(self.work / "a.png")[:2], (4096, 4096))
+            return
+        # Before the program listens, the signal ends it as it ends any program.
+        if work.returncode != -signal.SIGINT:
+            self.assertEqual(work.returncode, 1, errors)
+            self.assertIn("cancelled", errors)
+        self.assertEqual(list(self.work.iterdir()), [])
+
+
+class Cache(ProgramTest):
+    def draw(self, scene, name):
+        done = self.expect_success("render", scene, "--size", SIZE, "-o", name)
+        return (self.work / name).read_bytes(), done
+
+    def test_broken_tables_are_made_again(self):
+        scene = self.write_scene()
+        self.environment["TERRELLA_CACHE"] = ""
+        fresh, _ = self.draw(scene, "fresh.exr")
+        self.environment["TERRELLA_CACHE"] = str(self.cache)
+        self.assertEqual(self.draw(scene, "filled.exr")[0], fresh)
+        tables = [path for path in self.cache.rglob("*") if path.is_file()]
+        self.assertGreater(len(tables), 0)
+        self.assertEqual(self.draw(scene, "read.exr")[0], fresh)
+        for table in tables:
+            whole = table.read_bytes()
+            self.break_and_draw(scene, fresh, table, whole[:len(whole) // 2])
+            self.break_and_draw(scene, fresh, table, whole[:-1])
+            self.break_and_draw(scene, fresh, table, whole + b"x")
+            self.break_and_draw(scene, fresh, table, b"")
+            for place in [0, 9, len(whole) // 2, len(whole) - 1]:
+                flipped = bytearray(whole)
+                flipped[place] ^= 0x10
+                self.break_and_draw(scene, fresh, table, bytes(flipped))
+            self.assertEqual(table.read_bytes(), whole)
+
+    def break_and_draw(self, scene, fresh, table, content):
+        table.write_bytes(content)
+        self.assertEqual(self.draw(scene, "again.exr")[0], fresh)
+
+    def test_a_cache_that_cannot_be_written_is_no_failure(self):
+        scene = self.write_scene()
+        (self.folder / "file").write_text("")
+        self.environment["TERRELLA_CACHE"] = str(self.folder / "file" / "cache")
+        done = self.run_program("render", scene, "--size", "8x8")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+
+if __name__ == "__main__":
+    require_gl()
+    unittest.main(verbosity=2)
