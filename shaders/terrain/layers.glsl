@@ -61,9 +61,15 @@ vec3 layer_locate(vec4 place, vec4 shape, vec2 geo)
     return vec3(0.5 + east * place.z, 0.5 - north * place.w, t * t * (3.0 - 2.0 * t));
 }
 
+// textureSize(heights, level), which llvmpipe answers for one level for all pixels of a vector.
+ivec2 layer_size(sampler2D heights, int level)
+{
+    return max(textureSize(heights, 0) >> level, ivec2(1));
+}
+
 float layer_texel(sampler2D heights, vec4 shape, ivec2 p, int level)
 {
-    ivec2 size = textureSize(heights, level);
+    ivec2 size = layer_size(heights, level);
     bool is_round = shape.x > 4.0;
     if (is_round && ((p.y < 0 && shape.y > 4.0) || (p.y >= size.y && shape.z > 4.0))) {
         p.y = p.y < 0 ? -1 - p.y : 2 * size.y - 1 - p.y;
@@ -78,7 +84,7 @@ float layer_texel(sampler2D heights, vec4 shape, ivec2 p, int level)
 
 float layer_cubic(sampler2D heights, vec4 shape, vec2 uv, int level)
 {
-    vec2 at = uv * vec2(textureSize(heights, level)) - 0.5;
+    vec2 at = uv * vec2(layer_size(heights, level)) - 0.5;
     vec2 base = floor(at);
     vec2 f = at - base;
     ivec2 corner = ivec2(base) - 1;
@@ -95,7 +101,7 @@ float layer_cubic(sampler2D heights, vec4 shape, vec2 uv, int level)
 #ifdef NO_FLOAT_LINEAR
 float layer_bilinear(sampler2D heights, vec4 shape, vec2 uv, int level)
 {
-    vec2 at = uv * vec2(textureSize(heights, level)) - 0.5;
+    vec2 at = uv * vec2(layer_size(heights, level)) - 0.5;
     vec2 base = floor(at);
     ivec2 p = ivec2(base);
     float a = layer_texel(heights, shape, p, level);

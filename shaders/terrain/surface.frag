@@ -188,6 +188,11 @@ void main()
     // A pixel's width on the ground; seen at a slant it is longer, and the middle of both is taken.
     float slant = max(abs(dot(local, up)), 0.02 * distance_m) / max(distance_m, 1e-3);
     float log2_footprint = log2(max(distance_m * u_view.y, 1e-3)) - 0.5 * log2(slant);
+#ifdef NO_FLOAT_LINEAR
+    // Levels fetched by hand must be one for 2 x 2 pixels: llvmpipe takes the first's for all.
+    vec3 first = texelFetch(u_position, ivec2(gl_FragCoord.xy) & ~1, 0).xyz;
+    log2_footprint = log2(max(length(first) * u_view.y, 1e-3)) + 1.0;
+#endif
     vec3 geo_footprint = vec3(geo, log2_footprint);
 
     vec3 east = cross(vec3(0.0, u_anchor.y, u_anchor.x), up);

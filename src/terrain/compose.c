@@ -36,9 +36,9 @@ void terrain_compose_finish(struct terrain_compose *compose)
     *compose = (struct terrain_compose){0};
 }
 
-// Whether a layer reaches over the horizon and is more than a dot.
-static bool is_layer_in_view(const struct layer_frame *f, const struct terrain_compose_inputs *in,
-                             double radius_m)
+// Whether a layer is more than a dot.
+static bool is_layer_large(const struct layer_frame *f, const struct terrain_compose_inputs *in,
+                           double radius_m)
 {
     if (f->is_whole_circle) {
         return true;
@@ -49,15 +49,16 @@ static bool is_layer_in_view(const struct layer_frame *f, const struct terrain_c
     const double half = hypot(f->half_width, f->half_height);
     const double nearest = fmax(p->height_m, (away - half) * radius_m);
     const double pixel = 2 * in->camera->tan_half_fov_y / in->position->height;
-    return away - half < p->reach_rad && 2 * half * radius_m > LEAST_PIXELS * pixel * nearest;
+    return 2 * half * radius_m > LEAST_PIXELS * pixel * nearest;
 }
 
 static size_t count_elevations(const struct surface *surface,
                                const struct terrain_compose_inputs *in)
 {
-    size_t count = surface->counts[SURFACE_ELEVATION];
-    while (count > 0 && !is_layer_in_view(&surface->layers[SURFACE_ELEVATION][count - 1].frame, in,
-                                          surface->radius_m)) {
+    const struct projection *p = &in->shadow->projection;
+    size_t count = surface_count_elevations(surface, p->anchor.up, p->reach_rad);
+    while (count > 0 && !is_layer_large(&surface->layers[SURFACE_ELEVATION][count - 1].frame, in,
+                                        surface->radius_m)) {
         count--;
     }
     return count;

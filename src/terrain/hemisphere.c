@@ -16,16 +16,14 @@
 #include <math.h>
 
 // CELLS to a side of the grid in chunks of CHUNK_CELLS: a sixth of it, as much as a view of 60
-// degrees along the ground sees, is 140 thousand triangles.
+// degrees along the ground sees, is 210 thousand triangles.
 enum {
-    CELLS = 640,
+    CELLS = 800,
     CHUNK_CELLS = 16,
     CHUNK_ROW = CELLS / CHUNK_CELLS,
     CHUNKS = CHUNK_ROW * CHUNK_ROW
 };
-// Half as far out as this many rings is the camera's height above the ground.
-static const double RING_AT_HEIGHT = 60;
-static const double NEAREST_M = 3; // no terrain needs vertices closer than a part of this
+static const double RING_AT_NEAR = 30; // see projection.near_m
 // Above this part of the radius, the whole cap is seen at once and every other vertex is enough.
 static const double COARSE_FROM_RADIUS = 0.05;
 
@@ -197,9 +195,8 @@ static trl_result update(struct mesher *base, const struct camera *camera)
     h->projection = projection_make(h->surface, camera);
     // Distance on the ground near the middle, as grid coordinate: the apex of Eq. 2 is 1 above z_s.
     const double apex = 1 + h->projection.lift;
-    const double near =
-        fmax(h->projection.height_m, NEAREST_M) / h->surface->radius_m * fmax(apex, 0.1);
-    h->power = projection_power(near, RING_AT_HEIGHT, CELLS / 2.0);
+    const double near = h->projection.near_m / h->surface->radius_m * fmax(apex, 0.1);
+    h->power = projection_power(near, RING_AT_NEAR, CELLS / 2.0);
     h->is_coarse = h->projection.height_m > COARSE_FROM_RADIUS * h->surface->radius_m;
     for (uint32_t i = 0; i < CHUNKS; i++) {
         place_chunk(h, i);

@@ -9,6 +9,7 @@
 // The mesh is data made once: a camera that stays within these sees no vertex move.
 static const double THRESHOLD_OF_HEIGHT = 0.15;
 static const double MIN_THRESHOLD_M = 10;
+static const double NEAR_TEXELS = 3;
 static const double MAX_POWER = 4; // beyond, far rings lie too far apart
 
 double projection_lift(double distance_m, double ground_m, double peak_m)
@@ -24,6 +25,17 @@ double projection_lift(double distance_m, double ground_m, double peak_m)
 bool projection_is_stale(const struct projection *p, const struct camera *camera)
 {
     return !p->is_made || vec3_length(vec3_sub(camera->position_m, p->position_m)) > p->threshold_m;
+}
+
+// Height in metres of a texel of the finest elevations in reach.
+static double find_texel(const struct surface *surface, const struct projection *p)
+{
+    const size_t count = surface_count_elevations(surface, p->anchor.up, p->reach_rad);
+    double finest = p->reach_rad;
+    for (size_t i = 0; i < count; i++) {
+        finest = fmin(finest, surface->layers[SURFACE_ELEVATION][i].frame.texel_height);
+    }
+    return finest * surface->radius_m;
 }
 
 struct projection projection_make(const struct surface *surface, const struct camera *camera)
@@ -51,6 +63,7 @@ struct projection projection_make(const struct surface *surface, const struct ca
         low = fmax(low, (double)b.min);
         high = fmin(high, (double)b.max);
     }
+    p.near_m = fmax(p.height_m, NEAR_TEXELS * find_texel(surface, &p));
     p.lift = cos(p.reach_rad) / sin(p.reach_rad);
     return p;
 }

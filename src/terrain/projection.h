@@ -19,10 +19,13 @@ struct projection {
     struct anchor anchor;   // below it
     double threshold_m;     // how far the camera may move away from position_m
     double height_m;        // above the ground
-    double reach_rad;       // angle at the centre that covers all that may be seen
-    double lift;            // z_s for that
-    double solid_m;         // radius of the sphere that is all below ground, within reach
-    double max_altitude_m;  // within reach
+    // What lies within needs no smaller cells than what lies there: the height, or a few texels of
+    // the finest elevations in reach.
+    double near_m;
+    double reach_rad;      // angle at the centre that covers all that may be seen
+    double lift;           // z_s for that
+    double solid_m;        // radius of the sphere that is all below ground, within reach
+    double max_altitude_m; // within reach
 };
 
 // True when `p` was made for another place than the camera's.

@@ -7,22 +7,20 @@
 
 #include <math.h>
 
-enum { SIDE = 576, STEPS = 40 };
-// As for the mesh: this ring of the map is as far out as the camera is high.
-static const double RING_AT_HEIGHT = 60;
-static const double NEAREST_M = 30;
+enum { SIDE = 512, STEPS = 32 };
+static const double RING_AT_NEAR = 40; // see projection.near_m
 // A quarter of the sun's radius: what it moves in 16 seconds of Earth's day.
 static const double SUN_STEP_RAD = 1.2e-3;
 
-static trl_result make_program(struct terrain_shadow *s)
+static trl_result make_program(struct terrain_shadow *s, size_t elevations)
 {
     struct surface_defines defines;
-    surface_get_defines(s->surface, s->surface->counts[SURFACE_ELEVATION], &defines);
+    surface_get_defines(s->surface, elevations, &defines);
     const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
                                           .fragment = "terrain/shadow.frag",
                                           .defines = defines.list,
                                           .define_count = defines.count};
-    return gpu_program_init(s->gpu, &desc, &s->program);
+    return gpu_program_init(s->gpu, &desc, &s->programs[elevations]);
 }
 
 trl_result terrain_shadow_init(const struct surface *surface, double sun_angular_radius_rad,
@@ -41,7 +39,9 @@ trl_result terrain_shadow_init(const struct surface *surface, double sun_angular
             .label = "terrain shadow", .color_count = 1, .colors = {{.texture = &out->map}}};
         result = gpu_target_init(out->gpu, &target, &out->target);
     }
-    result = result == TRL_OK ? make_program(out) : result;
+    for (size_t i = 0; i <= surface->counts[SURFACE_ELEVATION] && result == TRL_OK; i++) {
+        result = make_program(out, i);
+    }
     if (result != TRL_OK) {
         terrain_shadow_finish(out);
     }
@@ -50,7 +50,9 @@ trl_result terrain_shadow_init(const struct surface *surface, double sun_angular
 
 void terrain_shadow_finish(struct terrain_shadow *shadow)
 {
-    gpu_program_finish(&shadow->program);
+    for (size_t i = 0; i <= SURFACE_MAX_LAYERS; i++) {
+        gpu_program_finish(&shadow->programs[i]);
+    }
     gpu_target_finish(&shadow->target);
     gpu_texture_finish(&shadow->map);
     *shadow = (struct terrain_shadow){0};
@@ -67,16 +69,19 @@ static trl_result draw_map(struct terrain_shadow *s)
     const struct anchor *anchor = &s->projection.anchor;
     // Peaks that cast shadows into the map may stand outside it.
     const double highest = surface_max_altitude(s->surface);
+    // A shadow that falls into the map comes from at most 0.05 rad outside (300 km on Earth).
+    struct gpu_program *program = &s->programs[surface_count_elevations(
+        s->surface, anchor->up, s->projection.reach_rad + 0.05)];
     const float map[4] = {SIDE, (float)s->power, (float)s->extent,
                           (float)s->sun_angular_radius_rad};
     const float march[4] = {STEPS, (float)highest, (float)surface_min_altitude(s->surface), 0};
-    surface_bind(s->surface, anchor, &s->program);
-    gpu_program_set_vec4(&s->program, "u_map", map);
-    gpu_program_set_vec4(&s->program, "u_march", march);
-    set_vec3(&s->program, "u_sun", anchor_local(anchor, s->sun));
+    surface_bind(s->surface, anchor, program);
+    gpu_program_set_vec4(program, "u_map", map);
+    gpu_program_set_vec4(program, "u_march", march);
+    set_vec3(program, "u_sun", anchor_local(anchor, s->sun));
     const struct gpu_pass pass = {.target = &s->target};
     gpu_pass_begin(s->gpu, &pass);
-    return gpu_draw_fullscreen(&s->program, "terrain shadow");
+    return gpu_draw_fullscreen(program, "terrain shadow");
 }
 
 trl_result terrain_shadow_update(struct terrain_shadow *s, const struct camera *camera)
@@ -89,9 +94,8 @@ trl_result terrain_shadow_update(struct terrain_shadow *s, const struct camera *
     if (is_stale) {
         s->projection = projection_make(s->surface, camera);
         s->extent = tan(s->projection.reach_rad / 2);
-        const double height = fmax(s->projection.height_m, NEAREST_M);
-        s->power = projection_power(height / s->surface->radius_m / 2 / s->extent, RING_AT_HEIGHT,
-                                    SIDE / 2.0);
+        s->power = projection_power(s->projection.near_m / s->surface->radius_m / 2 / s->extent,
+                                    RING_AT_NEAR, SIDE / 2.0);
     }
     s->sun = camera->sun_direction;
     return draw_map(s);

@@ -17,7 +17,7 @@ struct terrain_shadow {
     struct projection projection;
     struct vec3 sun; // for which it was made
     double power, extent;
-    struct gpu_program program;
+    struct gpu_program programs[SURFACE_MAX_LAYERS + 1]; // by the elevation layers in reach
     struct gpu_texture map; // R = altitude, m; G = half of the penumbra's height, m
     struct gpu_target target;
 };

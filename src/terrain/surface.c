@@ -47,52 +47,74 @@ static double fill_height(const void *user, double latitude, double longitude)
     return altitude_at(user, latitude, longitude);
 }
 
-// The last mask that covers the place; 0 where none does.
-static uint8_t read_mask(const struct loader *loader, double latitude, double longitude)
+// What the last mask that covers a place says, for a row of places in equal steps; 0 where none
+// does. Masks are equirectangular, so a row of places is a row of the mask.
+static void read_mask_row(const struct loader *loader, const struct layer_frame *f, uint32_t y,
+                          uint8_t *row)
 {
     const struct surface *s = loader->surface;
-    for (size_t i = s->counts[SURFACE_WATER]; i-- > 0;) {
-        const struct layer_frame *f = &s->layers[SURFACE_WATER][i].frame;
-        const struct layer_place place = layer_locate(f, latitude, longitude);
-        if (place.weight > 0) {
-            return loader->masks[i][layer_texel_index(f, lrint(place.x), lrint(place.y))];
-        }
-    }
-    return 0;
-}
-
-static void raise_row(const struct loader *loader, struct terrain_layer *layer, uint32_t y)
-{
-    const struct layer_frame *f = &layer->frame;
-    struct layer_heights *h = &layer->heights;
     const double latitude = f->centre_latitude + f->half_height - (y + 0.5) * f->texel_height;
     const double west = f->centre_longitude - f->half_width;
+    for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
+        const struct layer_frame *m = &s->layers[SURFACE_WATER][i].frame;
+        const struct layer_place first = layer_locate(m, latitude, west + 0.5 * f->texel_width);
+        const double step = f->texel_width / m->texel_width;
+        const uint8_t *texels =
+            loader->masks[i] + layer_texel_index(m, 0, (int64_t)floor(first.y + 0.5));
+        for (uint32_t x = 0; x < f->width && m->is_whole_circle && first.weight > 0; x++) {
+            const uint32_t column = (uint32_t)(first.x + 0.5 + x * step);
+            row[x] = texels[column < m->width ? column : column - m->width];
+        }
+        for (uint32_t x = 0; x < f->width && !m->is_whole_circle; x++) {
+            const struct layer_place p =
+                layer_locate(m, latitude, west + (x + 0.5) * f->texel_width);
+            row[x] = p.weight > 0 ? loader->masks[i][layer_texel_index(m, lrint(p.x), lrint(p.y))]
+                                  : row[x];
+        }
+    }
+}
+
+static void raise_row(const struct layer_frame *f, const struct layer_heights *h, uint32_t y,
+                      const uint8_t *mask)
+{
     const int16_t zero_short = (int16_t)fmax(INT16_MIN, fmin(INT16_MAX, -h->offset_m / h->scale));
     const float zero_float = (float)(-h->offset_m / h->scale);
-    for (uint32_t x = 0; x < f->width; x++) {
-        const size_t i = (size_t)y * f->width + x;
-        const bool is_below = h->shorts ? h->shorts[i] < zero_short : h->floats[i] < zero_float;
-        if (is_below && read_mask(loader, latitude, west + (x + 0.5) * f->texel_width) > 127) {
-            if (h->shorts) {
-                h->shorts[i] = zero_short;
-            } else {
-                h->floats[i] = zero_float;
-            }
-        }
+    const size_t base = (size_t)y * f->width;
+    for (uint32_t x = 0; x < f->width && h->shorts; x++) {
+        const int16_t v = h->shorts[base + x];
+        h->shorts[base + x] = v < zero_short && mask[x] > 127 ? zero_short : v;
+    }
+    for (uint32_t x = 0; x < f->width && h->floats; x++) {
+        const float v = h->floats[base + x];
+        h->floats[base + x] = v < zero_float && mask[x] > 127 ? zero_float : v;
     }
 }
 
 // Open water draws at sea level; what lies below it is the ocean's to show. Dry land below sea
 // level stays.
-static void raise_sea(const struct loader *loader, struct terrain_layer *layer)
+static trl_result raise_sea(const struct loader *loader, struct terrain_layer *layer)
 {
     if (loader->surface->counts[SURFACE_WATER] == 0) {
-        return;
+        return TRL_OK;
     }
-#pragma omp parallel for schedule(dynamic, 16)
-    for (uint32_t y = 0; y < layer->frame.height; y++) {
-        raise_row(loader, layer, y);
+    bool is_out_of_memory = false;
+#pragma omp parallel
+    {
+        uint8_t *mask = mem_alloc(layer->ctx, layer->frame.width, 1);
+        if (!mask) {
+#pragma omp atomic write
+            is_out_of_memory = true;
+        }
+#pragma omp for schedule(dynamic, 64)
+        for (uint32_t y = 0; y < layer->frame.height; y++) {
+            if (mask) {
+                read_mask_row(loader, &layer->frame, y, mask);
+                raise_row(&layer->frame, &layer->heights, y, mask);
+            }
+        }
+        mem_free(layer->ctx, mask);
     }
+    return is_out_of_memory ? TRL_ERROR_MEMORY : TRL_OK;
 }
 
 static trl_result check_bytes(struct loader *loader, const struct raster *raster,
@@ -132,7 +154,9 @@ static trl_result load_elevation(struct loader *loader, const struct surface_lay
         result = layer_read_heights(raster, &below, layer);
     }
     if (result == TRL_OK) {
-        raise_sea(loader, layer);
+        result = raise_sea(loader, layer);
+    }
+    if (result == TRL_OK) {
         result = layer_upload_heights(loader->surface->gpu, layer);
     }
     return result;
@@ -204,14 +228,13 @@ static struct surface_bounds *bounds_cell(const struct surface *s, double latitu
     return &s->bounds[row * SURFACE_BOUNDS_COLUMNS + column];
 }
 
-// Runs of texels of a row that share a cell are scanned at once.
+// Runs of texels of a row that are as long as a cell are scanned at once.
 static void bound_row(struct surface *s, const struct terrain_layer *layer, uint32_t y)
 {
     const struct layer_frame *f = &layer->frame;
     const struct layer_heights *h = &layer->heights;
     const double latitude = f->centre_latitude + f->half_height - (y + 0.5) * f->texel_height;
-    const uint32_t run = (uint32_t)fmax(1, 2 * SHARED_PI / SURFACE_BOUNDS_COLUMNS / f->texel_width /
-                                               4); // at most 4 cuts a cell
+    const uint32_t run = (uint32_t)fmax(1, 2 * SHARED_PI / SURFACE_BOUNDS_COLUMNS / f->texel_width);
     for (uint32_t x = 0; x < f->width; x += run) {
         const uint32_t end = x + run < f->width ? x + run : f->width;
         double low = INFINITY;
@@ -384,4 +407,20 @@ struct surface_bounds surface_bounds_around(const struct surface *s, struct vec3
         }
     }
     return b;
+}
+
+size_t surface_count_elevations(const struct surface *surface, struct vec3 direction,
+                                double angle_rad)
+{
+    size_t count = surface->counts[SURFACE_ELEVATION];
+    while (count > 0) {
+        const struct layer_frame *f = &surface->layers[SURFACE_ELEVATION][count - 1].frame;
+        const struct vec3 middle = vec3_from_lat_lon(f->centre_latitude, f->centre_longitude);
+        const double away = acos(fmax(-1, fmin(1, vec3_dot(middle, direction))));
+        if (f->is_whole_circle || away <= angle_rad + hypot(f->half_width, f->half_height)) {
+            break;
+        }
+        count--;
+    }
+    return count;
 }

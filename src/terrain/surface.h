@@ -80,6 +80,11 @@ double surface_max_altitude(const struct surface *surface);
 struct surface_bounds surface_bounds_around(const struct surface *surface, struct vec3 direction,
                                             double angle_rad);
 
+// How many elevation layers, from the first, a program must look at to see all that reach within
+// `angle_rad` of a unit direction.
+size_t surface_count_elevations(const struct surface *surface, struct vec3 direction,
+                                double angle_rad);
+
 // "#define"s of the numbers of layers, for programs that include terrain/layers.glsl.
 enum { SURFACE_DEFINE_COUNT = 6, SURFACE_DEFINE_LENGTH = 48 };
 struct surface_defines {
