@@ -60,15 +60,14 @@ static trl_result draw_case(const struct frame_case *c)
     return result;
 }
 
-static trl_result draw_view(const struct bench_job *job, const trl_scene *scene, const char *name,
-                            bool has_passes, trl_renderer *renderer)
+// One view at every size; `c` brings job and renderer.
+static trl_result draw_view(struct frame_case *c, const trl_scene *scene, const char *name)
 {
-    struct frame_case c = {.job = job, .renderer = renderer, .has_passes = has_passes};
-    trl_result result = trl_scene_view(scene, name, &c.view);
+    trl_result result = trl_scene_view(scene, name, &c->view);
     for (int s = 0; result == TRL_OK && s < SIZE_COUNT; s++) {
-        c.size = sizes[s];
-        snprintf(c.name, sizeof c.name, "%.40s %ux%u", name, c.size.width, c.size.height);
-        result = draw_case(&c);
+        c->size = sizes[s];
+        snprintf(c->name, sizeof c->name, "%.40s %ux%u", name, c->size.width, c->size.height);
+        result = draw_case(c);
     }
     return result;
 }
@@ -79,15 +78,14 @@ static trl_result draw_views(const struct bench_job *job, const trl_scene *scene
     trl_renderer_desc desc = trl_renderer_desc_default();
     desc.scene = scene;
     desc.measures_time = has_passes;
-    trl_renderer *renderer = NULL;
-    trl_result result = trl_renderer_create(job->app->ctx, &desc, &renderer);
+    struct frame_case c = {.job = job, .has_passes = has_passes};
+    trl_result result = trl_renderer_create(job->app->ctx, &desc, &c.renderer);
     const size_t count =
         job->scene ? trl_scene_view_count(scene) : sizeof bare_views / sizeof bare_views[0];
     for (size_t i = 0; result == TRL_OK && i < count; i++) {
-        const char *name = job->scene ? trl_scene_view_name(scene, i) : bare_views[i];
-        result = draw_view(job, scene, name, has_passes, renderer);
+        result = draw_view(&c, scene, job->scene ? trl_scene_view_name(scene, i) : bare_views[i]);
     }
-    trl_renderer_destroy(&renderer);
+    trl_renderer_destroy(&c.renderer);
     return result;
 }
 

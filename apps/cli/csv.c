@@ -144,7 +144,7 @@ static enum exit_status take_row(struct csv_table *table, char *line, size_t num
 static enum exit_status split_text(struct csv_table *table)
 {
     char *line = table->text;
-    if (memcmp(line, "\xEF\xBB\xBF", strnlen(line, 3)) == 0 && *line) {
+    if (strncmp(line, "\xEF\xBB\xBF", 3) == 0) {
         line += 3; // the byte order mark that spreadsheets write
     }
     enum exit_status status = EXIT_OK;

@@ -79,9 +79,14 @@ static enum exit_status print_scene(struct app *app, const char *path)
     }
     printf("scene           %s (%s): %zu views\n", trl_scene_name(scene), path,
            trl_scene_view_count(scene));
+    size_t missing = 0;
     for (size_t i = 0; i < trl_scene_layer_count(scene); i++) {
+        missing += !trl_scene_layer_is_present(scene, i);
         printf("  %-7s       %s: %s\n", trl_scene_layer_is_present(scene, i) ? "found" : "missing",
                trl_scene_layer_name(scene, i), trl_scene_layer_path(scene, i));
+    }
+    if (missing > 0) {
+        printf("  %zu missing: \"make data\" in the source tree fetches those of Earth\n", missing);
     }
     trl_scene_destroy(&scene);
     return EXIT_OK;
