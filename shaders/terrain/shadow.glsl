@@ -9,13 +9,35 @@ uniform vec4 u_shadow; // scale of grid to texture coordinates, power, extent, s
 uniform mat3 u_shadow_from_planet;
 uniform vec3 u_shadow_offset; // camera - the map's anchor on the sphere, local frame, m
 
+// The cubic B-spline over the map by four linear taps: where one ridge takes over from another the
+// map jumps, and linear patches would show.
+vec2 shadow_smooth(vec2 uv)
+{
+    vec2 size = vec2(textureSize(u_shadow_map, 0));
+    vec2 at = uv * size - 0.5;
+    vec2 base = floor(at);
+    vec2 f = at - base;
+    vec2 r = 1.0 - f;
+    vec2 w0 = r * r * r / 6.0;
+    vec2 w1 = 2.0 / 3.0 - 0.5 * f * f * (2.0 - f);
+    vec2 w3 = f * f * f / 6.0;
+    vec2 low = w0 + w1;
+    vec2 a = (base - 0.5 + w1 / low) / size;
+    vec2 b = (base + 1.5 + w3 / (1.0 - low)) / size;
+    return mix(mix(textureLod(u_shadow_map, b, 0.0).xy,
+                   textureLod(u_shadow_map, vec2(a.x, b.y), 0.0).xy, low.x),
+               mix(textureLod(u_shadow_map, vec2(b.x, a.y), 0.0).xy,
+                   textureLod(u_shadow_map, a, 0.0).xy, low.x),
+               low.y);
+}
+
 // `position` is relative to the camera, planet axes; `altitude` above the sphere.
 float terrain_sun_visibility(vec3 position, float altitude)
 {
     vec3 local = (u_shadow_from_planet * position + u_shadow_offset) / u_shadow.w;
     LocalDirection d = LocalDirection(local.x, local.y, local.z);
     vec2 g = local.xy * shadow_map_scale(d, u_shadow.y, u_shadow.z);
-    vec2 shadow = textureLod(u_shadow_map, 0.5 + 0.5 * g * u_shadow.x, 0.0).xy;
+    vec2 shadow = shadow_smooth(0.5 + 0.5 * g * u_shadow.x);
     // The part of a disc above a line, nearly: the smooth step has its slope at the middle.
     return smoothstep(-1.0, 1.0, (altitude - shadow.x) / shadow.y);
 }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 // Colour, normal, terrain shadow and lights of the ground, for each pixel of the position target.
 // Formats and meanings of the outputs are in src/terrain/compose.h.
+// validate: ELEVATION_COUNT 0; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0
+// validate: ELEVATION_COUNT 4; COLOUR_COUNT 4; WATER_COUNT 4; LIGHTS_COUNT 4
+// validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; NO_FLOAT_LINEAR
 #include "terrain/layers.glsl"
 #include "terrain/shadow.glsl"
 

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { SIDE = 512, STEPS = 32 };
+enum { SIDE = 512, STEPS = 26, HALVINGS = 4 };
 static const double RING_AT_NEAR = 40; // see projection.near_m
 // A quarter of the sun's radius: what it moves in 16 seconds of Earth's day.
 static const double SUN_STEP_RAD = 1.2e-3;
@@ -74,7 +74,8 @@ static trl_result draw_map(struct terrain_shadow *s)
         s->surface, anchor->up, s->projection.reach_rad + 0.05)];
     const float map[4] = {SIDE, (float)s->power, (float)s->extent,
                           (float)s->sun_angular_radius_rad};
-    const float march[4] = {STEPS, (float)highest, (float)surface_min_altitude(s->surface), 0};
+    const float march[4] = {STEPS, (float)highest, (float)surface_min_altitude(s->surface),
+                            HALVINGS};
     surface_bind(s->surface, anchor, program);
     gpu_program_set_vec4(program, "u_map", map);
     gpu_program_set_vec4(program, "u_march", march);
