@@ -37,7 +37,7 @@ typedef enum trl_gl {
 enum {
     TRL_RENDERER_MAX_SIDE = 16384,     ///< of a picture, in pixels; the GL may allow less
     TRL_RENDERER_MAX_PIXELS = 1 << 26, ///< width times height: what fits into about 4 GB of targets
-    TRL_RENDERER_MAX_WAVELENGTHS = 64  ///< of trl_renderer_desc.wavelengths
+    TRL_RENDERER_MAX_WAVELENGTHS = 16  ///< of trl_renderer_desc.wavelengths
 };
 
 typedef struct trl_renderer_desc {
