@@ -44,10 +44,9 @@ typedef struct trl_renderer_desc {
     uint32_t canary;        ///< set by trl_renderer_desc_default(); never touch
     const trl_scene *scene; ///< must outlive the renderer
     trl_gl gl;              ///< default TRL_GL_HEADLESS
-    uint32_t
-        wavelengths; ///< at which light is computed, [1, TRL_RENDERER_MAX_WAVELENGTHS]; default 16
-    bool measures_time; ///< each draw waits for the GPU and fills trl_renderer_timings; default
-                        ///< false
+    uint32_t wavelengths;   ///< to solve for, [1, TRL_RENDERER_MAX_WAVELENGTHS]; default 16
+    bool measures_time;     ///< each draw waits for the GPU and fills trl_renderer_timings; default
+                            ///< false
 } trl_renderer_desc;
 
 /// A desc with every default set; the caller adds the scene. Threads: any.

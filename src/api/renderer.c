@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "api/check.h"
+#include "frame/frame.h"
+#include <terrella/renderer.h>
+
+#include <math.h>
+
+enum { RENDERER_CANARY = 0x54524431 };
+
+struct trl_renderer {
+    const trl_context *ctx;
+    struct frame frame;
+};
+
+trl_renderer_desc trl_renderer_desc_default(void)
+{
+    return (trl_renderer_desc){.canary = RENDERER_CANARY, .gl = TRL_GL_HEADLESS, .wavelengths = 16};
+}
+
+static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, trl_renderer **out)
+{
+    trl_renderer *renderer = mem_alloc(ctx, 1, sizeof *renderer);
+    if (!renderer) {
+        return TRL_ERROR_MEMORY;
+    }
+    renderer->ctx = ctx;
+    const struct frame_desc frame = {.ctx = ctx,
+                                     .scene = desc->scene,
+                                     .gl = desc->gl,
+                                     .wavelengths = desc->wavelengths,
+                                     .measures_time = desc->measures_time};
+    const trl_result result = frame_init(&frame, &renderer->frame);
+    if (result != TRL_OK) {
+        mem_free(ctx, renderer);
+        return result;
+    }
+    *out = renderer;
+    return TRL_OK;
+}
+
+trl_result trl_renderer_create(trl_context *ctx, const trl_renderer_desc *desc, trl_renderer **out)
+{
+    if (!ctx) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(ctx, out != NULL);
+    *out = NULL;
+    TRL_REQUIRE(ctx, desc != NULL);
+    TRL_REQUIRE(ctx, desc->canary == RENDERER_CANARY);
+    TRL_REQUIRE(ctx, desc->scene != NULL);
+    TRL_REQUIRE(ctx, desc->gl == TRL_GL_HEADLESS || desc->gl == TRL_GL_CURRENT);
+    TRL_REQUIRE(ctx, desc->wavelengths >= 1 && desc->wavelengths <= TRL_RENDERER_MAX_WAVELENGTHS);
+    return create_frame(ctx, desc, out);
+}
+
+void trl_renderer_destroy(trl_renderer **renderer)
+{
+    if (!renderer || !*renderer) {
+        return;
+    }
+    const trl_context *ctx = (*renderer)->ctx;
+    frame_finish(&(*renderer)->frame);
+    mem_free(ctx, *renderer);
+    *renderer = NULL;
+}
+
+static trl_result check_size(const trl_context *ctx, uint32_t width, uint32_t height)
+{
+    if (width < 1 || height < 1 || width > TRL_RENDERER_MAX_SIDE ||
+        height > TRL_RENDERER_MAX_SIDE || width * height > TRL_RENDERER_MAX_PIXELS) {
+        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                        "a picture of %u x %u cannot be drawn: sides must be from 1 to %d pixels, "
+                        "all pixels together at most %d",
+                        width, height, TRL_RENDERER_MAX_SIDE, TRL_RENDERER_MAX_PIXELS);
+    }
+    return TRL_OK;
+}
+
+trl_result trl_renderer_draw(trl_renderer *renderer, const trl_view *view, uint32_t width,
+                             uint32_t height, double elapsed_s)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx, view != NULL);
+    TRL_REQUIRE(renderer->ctx, isfinite(elapsed_s) && elapsed_s >= 0);
+    trl_result result = check_size(renderer->ctx, width, height);
+    if (result == TRL_OK) {
+        result = check_view(renderer->ctx, view, renderer->frame.scene->medium.ground_radius_m);
+    }
+    const struct frame_request request = {view, width, height, elapsed_s};
+    return result == TRL_OK ? frame_draw(&renderer->frame, &request) : result;
+}
+
+static trl_result require_picture(const trl_renderer *renderer)
+{
+    return renderer->frame.is_drawn ? TRL_OK
+                                    : trl_fail(renderer->ctx, TRL_ERROR_INVALID,
+                                               TRL_LOG_ITEM_ARGUMENT, "nothing has been drawn yet");
+}
+
+trl_result trl_renderer_present(trl_renderer *renderer, uint32_t x, uint32_t y, uint32_t width,
+                                uint32_t height)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    const uint32_t most = TRL_RENDERER_MAX_SIDE;
+    const bool is_headless = renderer->frame.gpu->egl_context != NULL;
+    TRL_REQUIRE(renderer->ctx, !is_headless); // it has no window
+    TRL_REQUIRE(renderer->ctx, x <= most && y <= most);
+    TRL_REQUIRE(renderer->ctx, width >= 1 && width <= most && height >= 1 && height <= most);
+    const trl_result result = require_picture(renderer);
+    const struct gpu_rect rect = {x, y, width, height};
+    struct frame *frame = &renderer->frame;
+    return result == TRL_OK ? tone_present(&frame->tone, &frame->picture, rect) : result;
+}
+
+trl_result trl_renderer_read_rgba8(trl_renderer *renderer, uint8_t *rgba)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx, rgba != NULL);
+    const trl_result result = require_picture(renderer);
+    return result == TRL_OK ? frame_read_picture(&renderer->frame, rgba) : result;
+}
+
+trl_result trl_renderer_read_radiance(trl_renderer *renderer, float *rgba)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx, rgba != NULL);
+    const trl_result result = require_picture(renderer);
+    return result == TRL_OK ? frame_read_radiance(&renderer->frame, rgba) : result;
+}
+
+void trl_renderer_wait(trl_renderer *renderer)
+{
+    if (renderer && gpu_make_current(renderer->frame.gpu) == TRL_OK) {
+        gpu_wait(renderer->frame.gpu);
+    }
+}
+
+trl_result trl_renderer_exposure(trl_renderer *renderer, double *ev100)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx, ev100 != NULL);
+    trl_result result = require_picture(renderer);
+    if (result == TRL_OK) {
+        result = gpu_make_current(renderer->frame.gpu);
+    }
+    return result == TRL_OK ? exposure_read(&renderer->frame.exposure, ev100) : result;
+}
+
+double trl_renderer_ground_altitude_m(const trl_renderer *renderer, double latitude_rad,
+                                      double longitude_rad)
+{
+    if (!renderer || !isfinite(latitude_rad) || !isfinite(longitude_rad)) {
+        return 0;
+    }
+    return frame_place(&renderer->frame, latitude_rad, longitude_rad).ground_altitude_m;
+}
+
+trl_result trl_renderer_resolve(const trl_renderer *renderer, const trl_view *view, trl_view *out)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx, view != NULL);
+    TRL_REQUIRE(renderer->ctx, out != NULL);
+    const struct frame *frame = &renderer->frame;
+    const trl_result result = check_view(renderer->ctx, view, frame->scene->medium.ground_radius_m);
+    if (result == TRL_OK) {
+        const struct camera_place place =
+            frame_place(frame, view->latitude_rad, view->longitude_rad);
+        *out = camera_view_resolve(view, &place);
+    }
+    return result;
+}
+
+size_t trl_renderer_timings(const trl_renderer *renderer, trl_timing *rows, size_t capacity)
+{
+    if (!renderer) {
+        return 0;
+    }
+    const struct frame_clock *clock = &renderer->frame.clock;
+    for (size_t i = 0; i < capacity && i < clock->count; i++) {
+        rows[i] = clock->rows[i];
+    }
+    return clock->count;
+}

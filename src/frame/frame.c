@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "frame/frame.h"
+
+#include "frame/daylight.h"
+
+#include <inttypes.h>
+#include <math.h>
+
+static trl_result open_gpu(const struct frame_desc *desc, struct gpu **gpu)
+{
+    return desc->gl == TRL_GL_CURRENT ? gpu_create_current(desc->ctx, gpu)
+                                      : gpu_create_headless(desc->ctx, gpu);
+}
+
+static trl_result make_passes(struct frame *frame, const struct frame_desc *desc)
+{
+    const struct medium *medium = &frame->scene->medium;
+    trl_result result = trl_progress(frame->ctx, "building programs", 0);
+    if (result == TRL_OK) {
+        result = sky_init(frame->gpu, frame->atmosphere, &frame->sky);
+    }
+    if (result == TRL_OK) {
+        // Without a star only lights at night remain, and those are dimmer than this.
+        const double wall_cd_m2 = fmax(daylight_wall_cd_m2(medium), 1);
+        result = exposure_init(frame->gpu, wall_cd_m2, &frame->exposure);
+    }
+    if (result == TRL_OK) {
+        result = tone_init(frame->gpu, &frame->tone);
+    }
+    if (result == TRL_OK) {
+        result = frame_clock_init(frame->gpu, desc->measures_time, &frame->clock);
+    }
+    return result == TRL_OK ? trl_progress(frame->ctx, "building programs", 1) : result;
+}
+
+trl_result frame_init(const struct frame_desc *desc, struct frame *out)
+{
+    *out = (struct frame){.ctx = desc->ctx, .scene = desc->scene};
+    trl_result result = open_gpu(desc, &out->gpu);
+    if (result == TRL_OK) {
+        result = ground_init(out->gpu, desc->scene, &out->ground);
+    }
+    if (result == TRL_OK) {
+        struct atmosphere_desc atmosphere = atmosphere_desc_default();
+        atmosphere.wavelengths = desc->wavelengths;
+        result = atmosphere_create(desc->ctx, &desc->scene->medium, &atmosphere, &out->atmosphere);
+    }
+    if (result == TRL_OK) {
+        result = make_passes(out, desc);
+    }
+    if (result != TRL_OK) {
+        frame_finish(out);
+    }
+    return result;
+}
+
+static void finish_targets(struct frame *frame)
+{
+    gpu_target_finish(&frame->radiance_target);
+    gpu_target_finish(&frame->picture_target);
+    gpu_texture_finish(&frame->radiance);
+    gpu_texture_finish(&frame->picture);
+    frame->is_drawn = false;
+}
+
+void frame_finish(struct frame *frame)
+{
+    if (frame->gpu && gpu_make_current(frame->gpu) == TRL_OK) {
+        finish_targets(frame);
+        frame_clock_finish(&frame->clock);
+        tone_finish(&frame->tone);
+        exposure_finish(&frame->exposure);
+        sky_finish(&frame->sky);
+        ground_finish(&frame->ground);
+    }
+    atmosphere_destroy(&frame->atmosphere);
+    gpu_destroy(&frame->gpu);
+    *frame = (struct frame){0};
+}
+
+static trl_result make_radiance(struct frame *frame, uint32_t width, uint32_t height)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "radiance";
+    desc.format = GPU_FORMAT_RGBA32F;
+    desc.filter = GPU_FILTER_NEAREST;
+    desc.width = width;
+    desc.height = height;
+    const trl_result result = gpu_texture_init(frame->gpu, &desc, &frame->radiance);
+    const struct gpu_target_desc target = {
+        .label = "radiance", .color_count = 1, .colors[0].texture = &frame->radiance};
+    return result == TRL_OK ? gpu_target_init(frame->gpu, &target, &frame->radiance_target)
+                            : result;
+}
+
+static trl_result make_picture(struct frame *frame, uint32_t width, uint32_t height)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "picture";
+    desc.width = width;
+    desc.height = height;
+    const trl_result result = gpu_texture_init(frame->gpu, &desc, &frame->picture);
+    const struct gpu_target_desc target = {
+        .label = "picture", .color_count = 1, .colors[0].texture = &frame->picture};
+    return result == TRL_OK ? gpu_target_init(frame->gpu, &target, &frame->picture_target) : result;
+}
+
+static trl_result fit_targets(struct frame *frame, uint32_t width, uint32_t height)
+{
+    const uint32_t most = frame->gpu->caps.max_texture_size;
+    if (width > most || height > most) {
+        return trl_fail(frame->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                        "a picture of %" PRIu32 " x %" PRIu32
+                        " is larger than this GL can draw: at most %" PRIu32 " a side",
+                        width, height, most);
+    }
+    if (frame->picture.width == width && frame->picture.height == height) {
+        return TRL_OK;
+    }
+    finish_targets(frame);
+    trl_result result = make_radiance(frame, width, height);
+    if (result == TRL_OK) {
+        result = make_picture(frame, width, height);
+    }
+    if (result == TRL_OK) {
+        result = ground_resize(&frame->ground, width, height);
+    }
+    if (result != TRL_OK) {
+        finish_targets(frame); // so that the next frame does not take half of them for whole
+    }
+    return result;
+}
+
+struct camera_place frame_place(const struct frame *frame, double latitude_rad,
+                                double longitude_rad)
+{
+    return (struct camera_place){
+        .radius_m = frame->scene->medium.ground_radius_m,
+        .ground_altitude_m = ground_altitude_m(&frame->ground, latitude_rad, longitude_rad)};
+}
+
+static trl_result draw_radiance(struct frame *frame, const struct camera *camera)
+{
+    trl_result result = ground_draw(&frame->ground, camera, &frame->clock);
+    if (result == TRL_OK) {
+        frame_clock_part(&frame->clock, "sky maps");
+        result = sky_prepare(&frame->sky, camera, ground_highest_m(&frame->ground));
+    }
+    if (result == TRL_OK) {
+        frame_clock_part(&frame->clock, "sky");
+        const struct sky_surface surface = ground_surface(&frame->ground);
+        result = sky_draw(&frame->sky, camera, &surface, &frame->radiance_target);
+    }
+    return result;
+}
+
+static trl_result develop(struct frame *frame, const struct frame_request *request)
+{
+    const trl_view *view = request->view;
+    const struct exposure_request exposure = {.is_fixed = view->has_fixed_exposure,
+                                              .ev100 = view->exposure_ev100,
+                                              .bias_ev = view->exposure_bias_ev,
+                                              .elapsed_s = request->elapsed_s};
+    frame_clock_part(&frame->clock, "exposure");
+    trl_result result = exposure_update(&frame->exposure, &exposure, &frame->radiance);
+    if (result == TRL_OK) {
+        frame_clock_part(&frame->clock, "tone");
+        const struct tone_source source = {&frame->radiance, exposure_value(&frame->exposure),
+                                           view->tone_curve};
+        result = tone_draw(&frame->tone, &source, &frame->picture_target);
+    }
+    return result;
+}
+
+trl_result frame_draw(struct frame *frame, const struct frame_request *request)
+{
+    trl_result result = gpu_make_current(frame->gpu);
+    if (result == TRL_OK) {
+        result = fit_targets(frame, request->width, request->height);
+    }
+    if (result != TRL_OK) {
+        return result;
+    }
+    const trl_view *view = request->view;
+    const struct camera_place place = frame_place(frame, view->latitude_rad, view->longitude_rad);
+    const struct camera camera =
+        camera_resolve(view, &place, (double)request->width / request->height);
+    frame->is_drawn = false;
+    frame_clock_start(&frame->clock);
+    result = draw_radiance(frame, &camera);
+    if (result == TRL_OK) {
+        result = develop(frame, request);
+    }
+    frame_clock_stop(&frame->clock);
+    frame->is_drawn = result == TRL_OK;
+    return result;
+}

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef FRAME_FRAME_H
+#define FRAME_FRAME_H
+// One frame: which passes, in which order, into which targets. Nothing is calculated here.
+//
+//     ground    -> position, depth, albedo, normal, lights      src/terrain
+//     sky       -> radiance: ground lit, air, sun               src/sky
+//     exposure  -> EV100 and factor                             exposure.h
+//     tone      -> picture                                      tone.h
+//
+//     radiance  RGBA32F  linear sRGB, cd m^-2, finite; may be negative outside the gamut
+//     picture   RGBA8    sRGB codes
+//
+// Rows run from the bottom to the top, as GL has them.
+
+#include "frame/clock.h"
+#include "frame/exposure.h"
+#include "frame/ground.h"
+#include "frame/tone.h"
+#include "scatter/atmosphere.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+#include "sky/sky.h"
+
+struct frame_desc {
+    const trl_context *ctx;
+    const struct trl_scene *scene; // must outlive the frame
+    trl_gl gl;
+    uint32_t wavelengths;
+    bool measures_time;
+};
+
+struct frame {
+    const trl_context *ctx;
+    const struct trl_scene *scene;
+    struct gpu *gpu;
+    struct atmosphere *atmosphere;
+    struct ground ground;
+    struct sky sky;
+    struct exposure exposure;
+    struct tone tone;
+    struct frame_clock clock;
+    struct gpu_texture radiance, picture; // of the size of the last frame, or none
+    struct gpu_target radiance_target, picture_target;
+    bool is_drawn; // the targets hold a whole frame
+};
+
+// Opens GL, solves or loads the atmosphere, loads rasters, builds programs. *out is zeroed on
+// failure.
+TRL_MUST_USE trl_result frame_init(const struct frame_desc *desc, struct frame *out);
+void frame_finish(struct frame *frame);
+
+struct frame_request {
+    const trl_view *view; // every number checked
+    uint32_t width, height;
+    double elapsed_s; // 0: a single frame
+};
+TRL_MUST_USE trl_result frame_draw(struct frame *frame, const struct frame_request *request);
+
+// Top row first.
+TRL_MUST_USE trl_result frame_read_picture(struct frame *frame, uint8_t *rgba);
+TRL_MUST_USE trl_result frame_read_radiance(struct frame *frame, float *rgba);
+
+// What a view stands on.
+struct camera_place frame_place(const struct frame *frame, double latitude_rad,
+                                double longitude_rad);
+
+#endif // FRAME_FRAME_H

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "frame/ground.h"
+
+#include "frame/daylight.h"
+
+#include <math.h>
+
+static enum surface_kind choose_kind(enum layer_kind kind)
+{
+    switch (kind) {
+    case LAYER_ELEVATION:
+        return SURFACE_ELEVATION;
+    case LAYER_COLOUR:
+        return SURFACE_COLOUR;
+    case LAYER_WATER:
+        return SURFACE_WATER;
+    case LAYER_LIGHTS:
+        break;
+    }
+    return SURFACE_LIGHTS;
+}
+
+static trl_result load_surface(struct gpu *gpu, const struct trl_scene *scene,
+                               struct surface *surface)
+{
+    struct surface_layer_desc layers[SCENE_MAX_LAYERS];
+    for (size_t i = 0; i < scene->layer_count; i++) {
+        const struct layer *layer = &scene->layers[i];
+        layers[i] = (struct surface_layer_desc){.kind = choose_kind(layer->kind),
+                                                .path = layer->path,
+                                                .is_optional = layer->is_optional,
+                                                .scale = layer->scale,
+                                                .offset_m = layer->offset_m,
+                                                .feather_rad = layer->feather_deg * M_PI / 180};
+    }
+    struct surface_desc desc = surface_desc_default();
+    desc.radius_m = scene->medium.ground_radius_m;
+    desc.layer_count = scene->layer_count;
+    desc.layers = layers;
+    daylight_ground_albedo(&scene->medium, desc.default_albedo);
+    return surface_init(gpu, &desc, surface);
+}
+
+static trl_result make_passes(struct ground *ground, double sun_angular_radius_rad)
+{
+    trl_result result = mesher_create(&ground->surface, MESHER_HEMISPHERE, &ground->mesher);
+    if (result == TRL_OK) {
+        result = terrain_shadow_init(&ground->surface, sun_angular_radius_rad, &ground->shadow);
+    }
+    if (result == TRL_OK) {
+        result = terrain_compose_init(&ground->surface, &ground->compose);
+    }
+    return result;
+}
+
+trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene, struct ground *out)
+{
+    *out = (struct ground){.gpu = gpu};
+    trl_result result = load_surface(gpu, scene, &out->surface);
+    out->is_bare = result == TRL_OK && !surface_has_layers(&out->surface);
+    if (result == TRL_OK && !out->is_bare) {
+        result = make_passes(out, scene->medium.star_angular_radius_rad);
+    }
+    if (result != TRL_OK) {
+        ground_finish(out);
+    }
+    return result;
+}
+
+static void finish_buffers(struct ground *ground)
+{
+    gpu_target_finish(&ground->mesh_target);
+    gpu_target_finish(&ground->surface_target);
+    gpu_texture_finish(&ground->position);
+    gpu_texture_finish(&ground->depth);
+    gpu_texture_finish(&ground->albedo);
+    gpu_texture_finish(&ground->normal);
+    gpu_texture_finish(&ground->lights);
+}
+
+void ground_finish(struct ground *ground)
+{
+    finish_buffers(ground);
+    terrain_compose_finish(&ground->compose);
+    terrain_shadow_finish(&ground->shadow);
+    mesher_destroy(&ground->mesher);
+    surface_finish(&ground->surface);
+    *ground = (struct ground){0};
+}
+
+struct buffer {
+    struct gpu_texture *texture;
+    enum gpu_format format;
+    const char *label;
+};
+
+static trl_result make_buffers(struct ground *ground, uint32_t width, uint32_t height)
+{
+    const struct buffer buffers[] = {{&ground->position, GPU_FORMAT_RGBA32F, "position"},
+                                     {&ground->depth, GPU_FORMAT_DEPTH32F, "depth"},
+                                     {&ground->albedo, GPU_FORMAT_RGBA8, "albedo"},
+                                     {&ground->normal, GPU_FORMAT_RGBA16F, "normal"},
+                                     {&ground->lights, GPU_FORMAT_RGBA8, "lights"}};
+    trl_result result = TRL_OK;
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers && result == TRL_OK; i++) {
+        struct gpu_texture_desc desc = gpu_texture_desc_default();
+        desc.label = buffers[i].label;
+        desc.format = buffers[i].format;
+        desc.filter = GPU_FILTER_NEAREST;
+        desc.width = width;
+        desc.height = height;
+        result = gpu_texture_init(ground->gpu, &desc, buffers[i].texture);
+    }
+    return result;
+}
+
+static trl_result make_targets(struct ground *ground)
+{
+    const struct gpu_target_desc mesh = {.label = "mesh",
+                                         .color_count = 1,
+                                         .colors[0].texture = &ground->position,
+                                         .depth.texture = &ground->depth};
+    const struct gpu_target_desc surface = {.label = "surface",
+                                            .color_count = 3,
+                                            .colors = {{.texture = &ground->albedo},
+                                                       {.texture = &ground->normal},
+                                                       {.texture = &ground->lights}}};
+    const trl_result result = gpu_target_init(ground->gpu, &mesh, &ground->mesh_target);
+    return result == TRL_OK ? gpu_target_init(ground->gpu, &surface, &ground->surface_target)
+                            : result;
+}
+
+trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height)
+{
+    finish_buffers(ground);
+    if (ground->is_bare) {
+        return TRL_OK;
+    }
+    trl_result result = make_buffers(ground, width, height);
+    if (result == TRL_OK) {
+        result = make_targets(ground);
+    }
+    if (result != TRL_OK) {
+        finish_buffers(ground);
+    }
+    return result;
+}
+
+trl_result ground_draw(struct ground *ground, const struct camera *camera,
+                       struct frame_clock *clock)
+{
+    if (ground->is_bare) {
+        return TRL_OK;
+    }
+    frame_clock_part(clock, "mesh");
+    trl_result result = mesher_update(ground->mesher, camera);
+    if (result == TRL_OK) {
+        result = mesher_draw(ground->mesher, &ground->mesh_target);
+    }
+    if (result == TRL_OK) {
+        frame_clock_part(clock, "shadow");
+        result = terrain_shadow_update(&ground->shadow, camera);
+    }
+    if (result == TRL_OK) {
+        frame_clock_part(clock, "surface");
+        const struct terrain_compose_inputs inputs = {camera, &ground->position, &ground->shadow};
+        result = terrain_compose_draw(&ground->compose, &inputs, &ground->surface_target);
+    }
+    return result;
+}
+
+struct sky_surface ground_surface(const struct ground *ground)
+{
+    if (ground->is_bare) {
+        return (struct sky_surface){NULL, NULL, NULL, NULL};
+    }
+    return (struct sky_surface){.position = &ground->position,
+                                .albedo = &ground->albedo,
+                                .normal = &ground->normal,
+                                .lights = &ground->lights};
+}
+
+double ground_altitude_m(const struct ground *ground, double latitude_rad, double longitude_rad)
+{
+    return surface_altitude(&ground->surface, vec3_from_lat_lon(latitude_rad, longitude_rad));
+}
+
+double ground_highest_m(const struct ground *ground)
+{
+    return surface_max_altitude(&ground->surface);
+}

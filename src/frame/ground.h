@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef FRAME_GROUND_H
+#define FRAME_GROUND_H
+// The ground of a scene in the frame: rasters, mesh, and the surface buffers that the sky pass
+// lights. A scene without rasters is a bare sphere: it has no buffers, and the sky pass finds it by
+// itself.
+//
+//     position  RGBA32F   xyz relative to the camera, planet axes, m; w altitude, m, -1e9 where is
+//     no ground depth     DEPTH32F  reversed albedo    RGBA8     square root of the linear albedo;
+//     a: water normal    RGBA16F   xyz planet axes; w: how much of the sun is not hidden by terrain
+//     lights    RGBA8     square root of artificial light at night
+
+#include "base/camera.h"
+#include "frame/clock.h"
+#include "gpu/target.h"
+#include "scene/scene.h"
+#include "sky/sky.h"
+#include "terrain/compose.h"
+#include "terrain/mesher.h"
+
+struct ground {
+    struct gpu *gpu;
+    bool is_bare;
+    struct surface surface;
+    struct mesher *mesher; // NULL when bare, as the two passes below
+    struct terrain_shadow shadow;
+    struct terrain_compose compose;
+    struct gpu_texture position, depth, albedo, normal, lights;
+    struct gpu_target mesh_target, surface_target;
+};
+
+TRL_MUST_USE trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene,
+                                    struct ground *out);
+void ground_finish(struct ground *ground);
+
+// Makes the buffers anew. After a failure there are none, and it must be called again.
+TRL_MUST_USE trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height);
+
+TRL_MUST_USE trl_result ground_draw(struct ground *ground, const struct camera *camera,
+                                    struct frame_clock *clock);
+
+// What the sky pass lights: all NULL for a bare sphere.
+struct sky_surface ground_surface(const struct ground *ground);
+
+double ground_altitude_m(const struct ground *ground, double latitude_rad, double longitude_rad);
+double ground_highest_m(const struct ground *ground);
+
+#endif // FRAME_GROUND_H
