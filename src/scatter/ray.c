@@ -70,6 +70,14 @@ static struct leg make_leg(const struct ray *ray, const struct optics *optics, d
                         .high_shell = optics_shell(optics, is_rising ? last : first)};
 }
 
+static void fill_density(struct ray_node *node, const struct optics *optics)
+{
+    for (int i = 0; i < optics->constituent_count; i++) {
+        node->density[i] =
+            profile_density(&optics->medium->constituents[i].profile, node->altitude_m);
+    }
+}
+
 static void place_node(struct ray_node *node, const struct ray *ray, const struct optics *optics,
                        const struct leg *leg, double t)
 {
@@ -88,28 +96,16 @@ static void place_node(struct ray_node *node, const struct ray *ray, const struc
     // ds/dt = (ds/dr) (dr/du) (du/dt)
     node->weight_m =
         node->radius_m / chord / optics_shell_slope(optics, node->altitude_m) * 2 * span * t;
-    for (int i = 0; i < optics->constituent_count; i++) {
-        node->density[i] =
-            profile_density(&optics->medium->constituents[i].profile, node->altitude_m);
-    }
+    fill_density(node, optics);
 }
 
-// One Gauss rule over t in [from, to]; from > to on a falling leg, which the ray follows downward.
-static void add_rule(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
-                     const struct leg *leg, double from, double to, int count)
+// The last `count` nodes are those of one rule, their weights still without the rule's: sums up the
+// columns.
+static void finish_rule(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
+                        int count)
 {
-    if (ray->node_count + count > RAY_MAX_NODES) {
-        count = RAY_MAX_NODES - ray->node_count;
-    }
-    if (count < 1) {
-        return;
-    }
     struct ray_node *nodes = ray->node + ray->node_count;
     const double *cumulative = rules->cumulative[count];
-    for (int k = 0; k < count; k++) {
-        place_node(&nodes[k], ray, optics, leg, from + (to - from) * rules->rule[count].node[k]);
-        nodes[k].weight_m *= fabs(to - from);
-    }
     for (int i = 0; i < optics->constituent_count; i++) {
         for (int k = 0; k < count; k++) {
             double column = ray->column_m[i];
@@ -127,6 +123,24 @@ static void add_rule(struct ray *ray, const struct optics *optics, const struct 
         nodes[k].weight_m *= rules->rule[count].weight[k];
     }
     ray->node_count += count;
+}
+
+// One Gauss rule over t in [from, to]; from > to on a falling leg, which the ray follows downward.
+static void add_rule(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
+                     const struct leg *leg, double from, double to, int count)
+{
+    if (ray->node_count + count > RAY_MAX_NODES) {
+        count = RAY_MAX_NODES - ray->node_count;
+    }
+    if (count < 1) {
+        return;
+    }
+    for (int k = 0; k < count; k++) {
+        struct ray_node *node = &ray->node[ray->node_count + k];
+        place_node(node, ray, optics, leg, from + (to - from) * rules->rule[count].node[k]);
+        node->weight_m *= fabs(to - from);
+    }
+    finish_rule(ray, optics, rules, count);
 }
 
 static double leg_parameter(const struct ray *ray, const struct optics *optics,
@@ -169,7 +183,7 @@ void ray_init(struct ray *ray, const struct optics *optics, const struct ray_rul
 {
     ray->eye_radius_m = desc->radius_m;
     ray->eye_mu = desc->mu;
-    ray->node_count = 0;
+    ray->first_node = ray->node_count = 0;
     memset(ray->column_m, 0, sizeof ray->column_m);
     if (!ray_clip(optics, desc->radius_m, desc->mu, &ray->begin_m, &ray->end_m,
                   &ray->hits_ground)) {
@@ -189,4 +203,33 @@ void ray_init(struct ray *ray, const struct optics *optics, const struct ray_rul
     const struct leg rising = make_leg(ray, optics, closest_m, ray->end_m);
     add_leg(ray, optics, rules, desc, &falling);
     add_leg(ray, optics, rules, desc, &rising);
+}
+
+void ray_init_cells(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
+                    const struct ray_desc *desc, const double *bound_m, int count, int per_cell)
+{
+    ray->eye_radius_m = desc->radius_m;
+    ray->eye_mu = desc->mu;
+    ray->begin_m = bound_m[0];
+    ray->end_m = bound_m[count];
+    ray->hits_ground = false;
+    ray->first_node = ray->node_count = 0;
+    memset(ray->column_m, 0, sizeof ray->column_m);
+    const double pass_m = desc->radius_m * sqrt(fmax(0, 1 - desc->mu * desc->mu));
+    for (int c = 0; c < count; c++) {
+        const double length_m = bound_m[c + 1] - bound_m[c];
+        for (int k = 0; k < per_cell; k++) {
+            struct ray_node *node = &ray->node[ray->node_count + k];
+            node->distance_m = bound_m[c] + length_m * rules->rule[per_cell].node[k];
+            node->weight_m = length_m;
+            node->altitude_m = altitude_at(ray, optics, node->distance_m);
+            node->radius_m = optics->ground_radius_m + node->altitude_m;
+            node->shell = optics_shell(optics, node->altitude_m);
+            node->mu =
+                fmin(1, fmax(-1, (desc->radius_m * desc->mu + node->distance_m) / node->radius_m));
+            node->sine = fmin(1, pass_m / node->radius_m);
+            fill_density(node, optics);
+        }
+        finish_rule(ray, optics, rules, per_cell);
+    }
 }

@@ -46,12 +46,19 @@ struct ray {
     double begin_m, end_m; // of the part inside the medium; equal when there is none
     bool hits_ground;      // at end_m
     double column_m[MEDIUM_MAX_CONSTITUENTS]; // of the whole part
+    int first_node;                           // integrations take nodes [first_node, node_count)
     int node_count;
     struct ray_node node[RAY_MAX_NODES];
 };
 
 void ray_init(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
               const struct ray_desc *desc);
+
+// The same with cells instead of legs: `count` + 1 ascending distances, `per_cell` nodes in each,
+// so that an integration can stop at each bound. The nodes of cell c are [c * per_cell, (c + 1) *
+// per_cell). count * per_cell <= RAY_MAX_NODES, per_cell <= RAY_RULE_NODES.
+void ray_init_cells(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
+                    const struct ray_desc *desc, const double *bound_m, int count, int per_cell);
 
 // Geometry alone: where the ray enters and leaves the medium. False when it misses.
 bool ray_clip(const struct optics *optics, double radius_m, double mu, double *begin_m,

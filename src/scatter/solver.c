@@ -383,23 +383,34 @@ static trl_result iteration_init(struct iteration *it)
     return result;
 }
 
-trl_result solution_init(const trl_context *ctx, const struct optics *optics,
-                         const struct solver_settings *settings, struct solution *out)
+trl_result solution_reserve(const trl_context *ctx, const struct optics *optics,
+                            const struct solver_settings *settings, struct solution *out)
 {
     *out = (struct solution){.optics = optics};
-    struct iteration it = {.ctx = ctx, .solution = out, .settings = settings};
-    lanes *one = mem_alloc(ctx, (size_t)settings->suns, sizeof(lanes));
-    lanes *total = mem_alloc(ctx, (size_t)settings->suns, sizeof(lanes));
     out->rules = mem_alloc(ctx, 1, sizeof *out->rules);
-    trl_result result = one && total && out->rules ? TRL_OK : TRL_ERROR_MEMORY;
+    trl_result result = out->rules ? sunlight_reserve(ctx, optics, &out->sun) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
         ray_rules_init(out->rules);
-        result = sunlight_init(ctx, optics, out->rules, &out->sun);
-    }
-    if (result == TRL_OK) {
         result = moments_init(ctx, optics, settings->lmax, settings->levels, settings->suns,
                               &out->moments);
     }
+    if (result != TRL_OK) {
+        solution_finish(ctx, out);
+    }
+    return result;
+}
+
+trl_result solution_init(const trl_context *ctx, const struct optics *optics,
+                         const struct solver_settings *settings, struct solution *out)
+{
+    trl_result result = solution_reserve(ctx, optics, settings, out);
+    if (result != TRL_OK) {
+        return result;
+    }
+    struct iteration it = {.ctx = ctx, .solution = out, .settings = settings};
+    lanes *one = mem_alloc(ctx, (size_t)settings->suns, sizeof(lanes));
+    lanes *total = mem_alloc(ctx, (size_t)settings->suns, sizeof(lanes));
+    result = one && total ? sunlight_fill(ctx, out->rules, &out->sun) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
         result = iteration_init(&it);
     }

@@ -39,6 +39,10 @@ struct solution {
 // TRL_ERROR_MEMORY, TRL_ERROR_CANCELLED.
 TRL_MUST_USE trl_result solution_init(const trl_context *ctx, const struct optics *optics,
                                       const struct solver_settings *settings, struct solution *out);
+// The same without solving: arrays of zeros, for a cache to fill.
+TRL_MUST_USE trl_result solution_reserve(const trl_context *ctx, const struct optics *optics,
+                                         const struct solver_settings *settings,
+                                         struct solution *out);
 void solution_finish(const trl_context *ctx, struct solution *solution);
 
 #endif // SCATTER_SOLVER_H

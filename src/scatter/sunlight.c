@@ -129,29 +129,35 @@ static void fill_table(struct sunlight *sun, const struct columns *columns,
     }
 }
 
-trl_result sunlight_init(const trl_context *ctx, const struct optics *optics,
-                         const struct ray_rules *rules, struct sunlight *out)
+trl_result sunlight_reserve(const trl_context *ctx, const struct optics *optics,
+                            struct sunlight *out)
 {
     *out = (struct sunlight){.optics = optics, .levels = LEVELS, .columns = COLUMNS};
     out->disc_rad = fmax(optics->medium->star_angular_radius_rad, POINT_DISC_RAD);
     out->transmittance = mem_alloc(ctx, (size_t)LEVELS * COLUMNS, sizeof(lanes));
     out->ground_irradiance = mem_alloc(ctx, COLUMNS, sizeof(lanes));
-    const int threads = lanes_max_threads();
-    struct columns columns = {
-        optics, mem_alloc(ctx, (size_t)LEVELS * COLUMNS * MEDIUM_MAX_CONSTITUENTS, sizeof(double))};
-    struct ray *scratch = mem_alloc(ctx, (size_t)threads, sizeof *scratch);
-    const bool has_memory =
-        out->transmittance && out->ground_irradiance && columns.length_m && scratch;
-    if (has_memory) {
-        fill_table(out, &columns, rules, scratch, threads);
-    }
-    mem_free(ctx, columns.length_m);
-    mem_free(ctx, scratch);
-    if (!has_memory) {
+    if (!out->transmittance || !out->ground_irradiance) {
         sunlight_finish(ctx, out);
         return TRL_ERROR_MEMORY;
     }
     return TRL_OK;
+}
+
+trl_result sunlight_fill(const trl_context *ctx, const struct ray_rules *rules,
+                         struct sunlight *sun)
+{
+    const int threads = lanes_max_threads();
+    struct columns columns = {
+        sun->optics,
+        mem_alloc(ctx, (size_t)LEVELS * COLUMNS * MEDIUM_MAX_CONSTITUENTS, sizeof(double))};
+    struct ray *scratch = mem_alloc(ctx, (size_t)threads, sizeof *scratch);
+    const bool has_memory = columns.length_m && scratch;
+    if (has_memory) {
+        fill_table(sun, &columns, rules, scratch, threads);
+    }
+    mem_free(ctx, columns.length_m);
+    mem_free(ctx, scratch);
+    return has_memory ? TRL_OK : TRL_ERROR_MEMORY;
 }
 
 void sunlight_finish(const trl_context *ctx, struct sunlight *sun)

@@ -18,8 +18,12 @@ struct sunlight {
                               // irradiance
 };
 
-TRL_MUST_USE trl_result sunlight_init(const trl_context *ctx, const struct optics *optics,
-                                      const struct ray_rules *rules, struct sunlight *out);
+// Allocates without computing.
+TRL_MUST_USE trl_result sunlight_reserve(const trl_context *ctx, const struct optics *optics,
+                                         struct sunlight *out);
+// Computes what was reserved.
+TRL_MUST_USE trl_result sunlight_fill(const trl_context *ctx, const struct ray_rules *rules,
+                                      struct sunlight *sun);
 void sunlight_finish(const trl_context *ctx, struct sunlight *sun);
 
 // The sun coordinate is logarithmic in the cosine of the zenith angle above the one at which the

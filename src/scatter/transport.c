@@ -118,7 +118,7 @@ LANES_CLONES void transport_add_single(const struct sunlight *sun, const struct 
                                        lanes *const *radiance, struct transport_scratch *s)
 {
     const struct optics *optics = sun->optics;
-    for (int k = 0; k < ray->node_count; k++) {
+    for (int k = ray->first_node; k < ray->node_count; k++) {
         const struct ray_node *node = &ray->node[k];
         const lanes attenuation = attenuation_to_eye(optics, node->column_m);
         place_in_sunlight(sun, ray, node, family, s);
@@ -247,7 +247,7 @@ LANES_CLONES void transport_add_multiple(const struct moments *moments, const st
                                          const struct transport_family *family, lanes *radiance,
                                          struct transport_scratch *s)
 {
-    for (int k = 0; k < ray->node_count; k++) {
+    for (int k = ray->first_node; k < ray->node_count; k++) {
         const struct ray_node *node = &ray->node[k];
         const lanes attenuation = attenuation_to_eye(moments->optics, node->column_m);
         place_in_moments(moments, ray, node, family, s);

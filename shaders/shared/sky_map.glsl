@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+//
+// Where a ray, a sun and a distance lie in the tables of the sky. C fills the tables with the
+// inverse of these; the sky pass looks them up. All coordinates are in [0, 1].
+// Quantities: lengths in m; mu = cosine of a zenith angle; radius from the planet's centre.
+#ifndef SHARED_SKY_MAP_GLSL
+#define SHARED_SKY_MAP_GLSL
+
+#include "shared/shared.glsl"
+
+// Rays that miss the ground, by their distance to the top of the air: shortest straight up, longest
+// along the horizon, where the coordinate is 1 and the table is densest (Bruneton and Neyret 2008
+// take the distance itself; the root resolves the limb's lowest kilometre).
+SHARED_FN Number sky_map_view(Length distance, Length shortest, Length longest)
+{
+    Number y = shared_clamp((distance - shortest) / shared_max(longest - shortest, 1.0), 0.0, 1.0);
+    return 1.0 - sqrt(1.0 - y);
+}
+
+SHARED_FN Length sky_map_view_distance(Number x, Length shortest, Length longest)
+{
+    return shortest + (longest - shortest) * (1.0 - (1.0 - x) * (1.0 - x));
+}
+
+// asinh, odd, without cancellation
+SHARED_FN Number sky_map_asinh(Number z)
+{
+    Number magnitude = shared_abs(z);
+    Number root = log(magnitude + sqrt(magnitude * magnitude + 1.0));
+    return z < 0.0 ? -root : root;
+}
+
+// The star's zenith angle in the grid of the moments: densest in the middle of twilight (centre),
+// over its width. `first` and `last` are the asinh values of the ends.
+SHARED_FN Number sky_map_sun(Number mu, Number centre, Number width, Number first, Number last)
+{
+    return shared_clamp((sky_map_asinh((mu - centre) / width) - first) / (last - first), 0.0, 1.0);
+}
+
+// The cosine at which the disc's upper edge touches the horizon of a point, and the coordinate of
+// direct light above it: logarithmic, finest where the disc rises (softness is a cosine).
+SHARED_FN Number sky_map_lowest_sun(Length ground_radius, Length altitude, Number disc_cos, Number disc_sin)
+{
+    Number ratio = ground_radius / (ground_radius + shared_max(altitude, 0.0));
+    return -sqrt(shared_max(0.0, 1.0 - ratio * ratio)) * disc_cos - ratio * disc_sin;
+}
+
+SHARED_FN Number sky_map_sunlight(Number mu, Number lowest, Number softness)
+{
+    return log(1.0 + shared_max(mu - lowest, 0.0) / softness) / log(1.0 + (1.0 - lowest) / softness);
+}
+
+// The azimuth of a ray from the star's, by its cosine.
+SHARED_FN Number sky_map_azimuth(Number cos_azimuth)
+{
+    return 0.5 - 0.5 * cos_azimuth;
+}
+
+// Aerial perspective: rows of rays that meet the reference sphere, by the distance to it (nearest
+// at the nadir, farthest along the horizon); rows of rays that pass above, by mu between the horizon
+// and the highest ray; and the depth along a ray through the air, by the root of its share.
+SHARED_FN Number sky_map_ground_row(Length distance, Length nearest, Length farthest)
+{
+    return sqrt(shared_clamp((distance - nearest) / shared_max(farthest - nearest, 1.0e-3), 0.0, 1.0));
+}
+
+SHARED_FN Number sky_map_air_row(Number mu, Number horizon_mu, Number highest_mu)
+{
+    return sqrt(shared_clamp((mu - horizon_mu) / shared_max(highest_mu - horizon_mu, 1.0e-9), 0.0, 1.0));
+}
+
+SHARED_FN Number sky_map_depth(Length distance, Length start, Length end)
+{
+    return sqrt(shared_clamp((distance - start) / shared_max(end - start, 1.0e-3), 0.0, 1.0));
+}
+
+#endif // SHARED_SKY_MAP_GLSL

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// The air between the eye and what a pixel shows. Lengths in m. Radiance in four bands per unit
+// irradiance of the star (sr^-1). No planet-sized floats are subtracted: heights come separately.
+#ifndef SKY_AIR_GLSL
+#define SKY_AIR_GLSL
+
+#include "shared/phase.glsl"
+#include "shared/sky_map.glsl"
+
+uniform vec3 u_eye_up;      // unit, planet frame
+uniform vec3 u_sun;         // unit, toward the star
+uniform vec4 u_eye;         // radius, altitude, cosine of the star's zenith angle, is outside the air
+uniform vec4 u_planet;      // ground radius, height of the air, half chord of the air over the horizon
+uniform vec4 u_rows;        // nearest, farthest, horizon mu, highest mu
+uniform vec4 u_sun_grid;    // centre, width, first, last: see sky_map_sun
+uniform vec3 u_slice_size;  // azimuths, suns, views
+uniform vec4 u_aerial_size; // depths, azimuths, rows on the ground, rows in all
+
+uniform sampler3D u_slice0;
+uniform sampler3D u_scattered0;
+uniform sampler2D u_extinction;
+#if PEAKED_COUNT > 0
+uniform sampler3D u_slice1;
+uniform sampler3D u_scattered1;
+#endif
+#if PEAKED_COUNT > 1
+uniform sampler3D u_slice2;
+uniform sampler3D u_scattered2;
+#endif
+#if PEAKED_COUNT > 2
+uniform sampler3D u_slice3;
+uniform sampler3D u_scattered3;
+#endif
+#if PEAKED_COUNT > 0
+uniform sampler2D u_phase; // sine of half the scattering angle x peaked constituent
+#endif
+
+// A straight ray from the eye against the planet and its air.
+struct Ray {
+    vec3 direction;
+    float mu, nu;       // cosines of the angles to the zenith and to the star
+    bool meets_ground;  // of the reference sphere
+    float ground_m;     // distance to it, where it is met
+    float begin_m, end_m; // of the part in the air, as if it ended at the sphere
+    float chord_m;      // half of the whole way through the air, from outside
+};
+
+Ray make_ray(vec3 direction)
+{
+    Ray ray;
+    ray.direction = direction;
+    ray.mu = dot(u_eye_up, direction);
+    ray.nu = dot(u_sun, direction);
+    float r = u_eye.x;
+    float h = u_eye.y;
+    float ground = u_planet.x;
+    float top = u_planet.x + u_planet.y;
+    float along = r * ray.mu;
+    float pass = r * length(cross(u_eye_up, direction));
+    bool outside = u_eye.w > 0.5;
+    float to_ground = outside ? (ground - pass) * (ground + pass)
+                              : along * along - h * (2.0 * ground + h);
+    float to_top = outside ? (top - pass) * (top + pass)
+                           : along * along + (u_planet.y - h) * (2.0 * ground + u_planet.y + h);
+    ray.meets_ground = along < 0.0 && to_ground > 0.0;
+    // The nearer root without cancellation: the product of both is h (2 R + h).
+    ray.ground_m = h * (2.0 * ground + h) / (sqrt(max(to_ground, 0.0)) - min(along, -1.0e-3));
+    ray.chord_m = sqrt(max(to_top, 0.0));
+    bool misses = outside && (to_top <= 0.0 || along > 0.0);
+    ray.begin_m = outside ? max(-along - ray.chord_m, 0.0) : 0.0;
+    ray.end_m = ray.meets_ground ? ray.ground_m : ray.chord_m - along;
+    if (misses) {
+        ray.chord_m = 0.0;
+        ray.end_m = ray.begin_m;
+    }
+    return ray;
+}
+
+float azimuth_coordinate(float mu, float sun_mu, float nu)
+{
+    float sines = sqrt(max((1.0 - mu * mu) * (1.0 - sun_mu * sun_mu), 1.0e-12));
+    return sky_map_azimuth(clamp((nu - mu * sun_mu) / sines, -1.0, 1.0));
+}
+
+// From [0, 1] to texel centres.
+float centre(float coordinate, float size)
+{
+    return (coordinate * (size - 1.0) + 0.5) / size;
+}
+
+// Joins the channels: the first is stored without the Rayleigh phase function, the peaked ones
+// without their own.
+#if PEAKED_COUNT > 0
+vec4 peaked_phase(float nu)
+{
+    return textureLod(u_phase, vec2(centre(sqrt(max(0.5 - 0.5 * nu, 0.0)), 1024.0), 0.5), 0.0);
+}
+#endif
+
+vec4 join_slice(vec3 at, float nu)
+{
+    vec4 sum = textureLod(u_slice0, at, 0.0) * phase_rayleigh(nu);
+#if PEAKED_COUNT > 0
+    vec4 phase = peaked_phase(nu);
+    sum += textureLod(u_slice1, at, 0.0) * phase.x;
+#endif
+#if PEAKED_COUNT > 1
+    sum += textureLod(u_slice2, at, 0.0) * phase.y;
+#endif
+#if PEAKED_COUNT > 2
+    sum += textureLod(u_slice3, at, 0.0) * phase.z;
+#endif
+    return sum;
+}
+
+vec4 join_scattered(vec3 at, float nu)
+{
+    vec4 sum = textureLod(u_scattered0, at, 0.0) * phase_rayleigh(nu);
+#if PEAKED_COUNT > 0
+    vec4 phase = peaked_phase(nu);
+    sum += textureLod(u_scattered1, at, 0.0) * phase.x;
+#endif
+#if PEAKED_COUNT > 1
+    sum += textureLod(u_scattered2, at, 0.0) * phase.y;
+#endif
+#if PEAKED_COUNT > 2
+    sum += textureLod(u_scattered3, at, 0.0) * phase.z;
+#endif
+    return sum;
+}
+
+// Radiance of the whole way through the air of a ray that ends in space. From outside the eye stands
+// where the ray enters (Elek 2010 Section 5).
+vec4 sky_radiance(Ray ray)
+{
+    bool outside = u_eye.w > 0.5;
+    float top = u_planet.x + u_planet.y;
+    float rise = sqrt(max(u_eye.y * (2.0 * u_planet.x + u_eye.y), 0.0));
+    float mu = outside ? -ray.chord_m / top : ray.mu;
+    float sun_mu = outside
+                       ? clamp((u_eye.x * u_eye.z + ray.begin_m * ray.nu) / top, -1.0, 1.0)
+                       : u_eye.z;
+    float way = outside ? 2.0 * ray.chord_m : ray.chord_m - u_eye.x * ray.mu;
+    float shortest = outside ? 0.0 : u_planet.y - u_eye.y;
+    float longest = (outside ? u_planet.z : rise) + u_planet.z;
+    float view = sky_map_view(way, shortest, longest);
+    float sun = sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w);
+    vec3 at = vec3(centre(azimuth_coordinate(mu, sun_mu, ray.nu), u_slice_size.x),
+                   centre(sun, u_slice_size.y), centre(view, u_slice_size.z));
+    vec4 radiance = join_slice(at, ray.nu);
+    return ray.chord_m > 0.0 ? max(radiance, vec4(0.0)) : vec4(0.0);
+}
+
+struct Air {
+    vec4 scattered;     // radiance that the air adds
+    vec4 transmittance; // what it leaves of the light behind it
+};
+
+// The air between the eye and a point at `distance_m` on the ray.
+Air air_before(Ray ray, float distance_m)
+{
+    float row = ray.meets_ground
+                    ? sky_map_ground_row(ray.ground_m, u_rows.x, u_rows.y) * (u_aerial_size.z - 1.0)
+                    : u_aerial_size.z + sky_map_air_row(ray.mu, u_rows.z, u_rows.w) *
+                                            (u_aerial_size.w - u_aerial_size.z - 1.0);
+    float depth = sky_map_depth(distance_m, ray.begin_m, ray.end_m);
+    float azimuth = azimuth_coordinate(ray.mu, u_eye.z, ray.nu);
+    vec3 at = vec3(centre(depth, u_aerial_size.x), centre(azimuth, u_aerial_size.y),
+                   (row + 0.5) / u_aerial_size.w);
+    float way = clamp(distance_m, ray.begin_m, max(ray.end_m * 1.2, distance_m)) - ray.begin_m;
+    Air air;
+    air.scattered = max(join_scattered(at, ray.nu), vec4(0.0)) * way;
+    air.transmittance = exp(-textureLod(u_extinction, at.xz, 0.0) * way);
+    return air;
+}
+
+#endif // SKY_AIR_GLSL

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "scatter/aerial.h"
+
+#include "shared/phase.glsl"
+
+#include <math.h>
+#include <string.h>
+
+enum { NODES_PER_CELL = 2 };
+
+// The first depth stands this close to the start, in units of the depth coordinate, instead of at
+// 0, where a mean over no distance has no meaning.
+static const double FIRST_DEPTH = 0.1;
+
+struct aerial_worker {
+    struct ray ray;
+    struct transport_scratch *scratch;
+    float sun_mu[AERIAL_AZIMUTHS], nu[AERIAL_AZIMUTHS];
+    float phase[MEDIUM_MAX_CONSTITUENTS][AERIAL_AZIMUTHS];
+    lanes radiance[1 + TABLE_MAX_PEAKED][AERIAL_AZIMUTHS];
+};
+
+static size_t row_floats(void)
+{
+    return (size_t)AERIAL_DEPTHS * BAND_COUNT;
+}
+
+trl_result aerial_init(const struct atmosphere *atmosphere, struct aerial *out)
+{
+    const trl_context *ctx = atmosphere->ctx;
+    *out = (struct aerial){.atmosphere = atmosphere, .worker_count = lanes_max_threads()};
+    out->workers = mem_alloc(ctx, (size_t)out->worker_count, sizeof *out->workers);
+    out->extinction = mem_alloc(ctx, AERIAL_ROWS * row_floats(), sizeof(float));
+    bool has_memory = out->workers && out->extinction;
+    for (int c = 0; c <= atmosphere->peaked.count && has_memory; c++) {
+        out->scattered[c] =
+            mem_alloc(ctx, (size_t)AERIAL_ROWS * AERIAL_AZIMUTHS * row_floats(), sizeof(float));
+        has_memory = out->scattered[c] != NULL;
+    }
+    trl_result result = has_memory ? TRL_OK : TRL_ERROR_MEMORY;
+    for (int n = 0; n < out->worker_count && result == TRL_OK; n++) {
+        result = transport_scratch_create(ctx, AERIAL_AZIMUTHS, atmosphere->solution.moments.suns,
+                                          &out->workers[n].scratch);
+    }
+    if (result != TRL_OK) {
+        aerial_finish(out);
+    }
+    return result;
+}
+
+void aerial_finish(struct aerial *aerial)
+{
+    if (!aerial->atmosphere) {
+        return;
+    }
+    const trl_context *ctx = aerial->atmosphere->ctx;
+    for (int n = 0; aerial->workers && n < aerial->worker_count; n++) {
+        transport_scratch_destroy(ctx, &aerial->workers[n].scratch);
+    }
+    mem_free(ctx, aerial->workers);
+    mem_free(ctx, aerial->extinction);
+    for (int c = 0; c <= TABLE_MAX_PEAKED; c++) {
+        mem_free(ctx, aerial->scattered[c]);
+    }
+    *aerial = (struct aerial){0};
+}
+
+// Cosine of the ray of a row; the inverse of the row coordinates of shared/sky_map.glsl.
+static double row_mu(const struct aerial *a, int row)
+{
+    const double r = a->eye_radius_m;
+    const double ground = a->atmosphere->optics->ground_radius_m;
+    if (row < AERIAL_GROUND_ROWS) {
+        const double x = (double)row / (AERIAL_GROUND_ROWS - 1);
+        const double distance = a->nearest_m + (a->farthest_m - a->nearest_m) * x * x;
+        const double mu = ((ground - r) * (ground + r) - distance * distance) / (2 * r * distance);
+        return fmax(-1, fmin(mu, a->horizon_mu - 1e-10));
+    }
+    const double x = (double)(row - AERIAL_GROUND_ROWS) / (AERIAL_AIR_ROWS - 1);
+    return fmin(1, a->horizon_mu + (a->highest_mu - a->horizon_mu) * x * x + 1e-10);
+}
+
+static void fill_family(struct aerial_worker *w, double mu, double sun_mu)
+{
+    const double sine = sqrt(fmax(0, 1 - mu * mu));
+    const double sun_sine = sqrt(fmax(0, 1 - sun_mu * sun_mu));
+    for (int p = 0; p < AERIAL_AZIMUTHS; p++) {
+        const double cos_azimuth = 1 - 2.0 * p / (AERIAL_AZIMUTHS - 1);
+        w->sun_mu[p] = (float)sun_mu;
+        w->nu[p] = (float)(mu * sun_mu + sine * sun_sine * cos_azimuth);
+    }
+}
+
+static void store_scattered(struct aerial *a, const struct aerial_worker *w, int row, int depth,
+                            double length_m)
+{
+    const struct bands *bands = &a->atmosphere->bands;
+    for (int c = 0; c <= a->atmosphere->peaked.count; c++) {
+        for (int p = 0; p < AERIAL_AZIMUTHS; p++) {
+            float *texel = a->scattered[c] + ((size_t)row * AERIAL_AZIMUTHS + p) * row_floats() +
+                           (size_t)depth * BAND_COUNT;
+            const double scale =
+                c == 0 ? 1 / (length_m * phase_rayleigh((double)w->nu[p])) : 1 / length_m;
+            for (int b = 0; b < BAND_COUNT; b++) {
+                texel[b] = (float)((double)w->radiance[c][p][bands->lane[b]] * scale);
+            }
+        }
+    }
+}
+
+static void store_extinction(struct aerial *a, const double *column_m, int row, int depth,
+                             double length_m)
+{
+    const struct optics *optics = a->atmosphere->optics;
+    for (int b = 0; b < BAND_COUNT; b++) {
+        double sum = 0;
+        for (int i = 0; i < optics->constituent_count; i++) {
+            sum += (double)optics->extinction_per_m[i][a->atmosphere->bands.lane[b]] * column_m[i];
+        }
+        a->extinction[(size_t)row * row_floats() + (size_t)depth * BAND_COUNT + b] =
+            (float)(sum / length_m);
+    }
+}
+
+// Marches one row cell by cell and stores the means up to each bound.
+static void march_row(struct aerial *a, struct aerial_worker *w, int row, double sun_mu)
+{
+    const struct atmosphere *atm = a->atmosphere;
+    const struct optics *optics = atm->optics;
+    const double mu = row_mu(a, row);
+    double begin_m;
+    double end_m;
+    bool hits_ground;
+    if (!ray_clip(optics, a->eye_radius_m, mu, &begin_m, &end_m, &hits_ground)) {
+        end_m = begin_m + 1; // grazes the top: nothing there
+    }
+    double bound_m[AERIAL_DEPTHS + 1];
+    bound_m[0] = begin_m;
+    for (int d = 0; d < AERIAL_DEPTHS; d++) {
+        const double x = fmax(d, FIRST_DEPTH) / (AERIAL_DEPTHS - 1);
+        bound_m[d + 1] = begin_m + (end_m - begin_m) * x * x;
+    }
+    const struct ray_desc desc = {.radius_m = a->eye_radius_m, .mu = mu};
+    ray_init_cells(&w->ray, optics, atm->solution.rules, &desc, bound_m, AERIAL_DEPTHS,
+                   NODES_PER_CELL);
+    fill_family(w, mu, sun_mu);
+    const struct transport_family family = {AERIAL_AZIMUTHS, w->sun_mu, w->nu};
+    float *phase[MEDIUM_MAX_CONSTITUENTS];
+    for (int i = 0; i < MEDIUM_MAX_CONSTITUENTS; i++) {
+        phase[i] = w->phase[i];
+    }
+    lanes *out[1 + TABLE_MAX_PEAKED];
+    for (int c = 0; c <= TABLE_MAX_PEAKED; c++) {
+        out[c] = w->radiance[c];
+    }
+    const struct transport_channels channels =
+        peaked_channels(&atm->peaked, optics, &family, phase);
+    memset(w->radiance, 0, sizeof w->radiance);
+    double column_m[MEDIUM_MAX_CONSTITUENTS] = {0};
+    for (int d = 0; d < AERIAL_DEPTHS; d++) {
+        w->ray.first_node = d * NODES_PER_CELL;
+        w->ray.node_count = (d + 1) * NODES_PER_CELL;
+        transport_add_single(&atm->solution.sun, &w->ray, &family, &channels, out, w->scratch);
+        transport_add_multiple(&atm->solution.moments, &w->ray, &family, out[0], w->scratch);
+        for (int k = w->ray.first_node; k < w->ray.node_count; k++) {
+            for (int i = 0; i < optics->constituent_count; i++) {
+                column_m[i] += w->ray.node[k].density[i] * w->ray.node[k].weight_m;
+            }
+        }
+        const double length_m = fmax(bound_m[d + 1] - begin_m, 1e-9);
+        store_scattered(a, w, row, d, length_m);
+        store_extinction(a, column_m, row, d, length_m);
+    }
+}
+
+void aerial_update(struct aerial *aerial, double radius_m, double sun_mu)
+{
+    const struct optics *optics = aerial->atmosphere->optics;
+    const double ground = optics->ground_radius_m;
+    const double top = optics->top_radius_m;
+    const double r = fmax(radius_m, ground + AERIAL_MIN_ALTITUDE_M);
+    const double sine = ground / r;
+    aerial->eye_radius_m = r;
+    aerial->nearest_m = r - ground;
+    aerial->farthest_m = sqrt((r - ground) * (r + ground));
+    aerial->horizon_mu = -sqrt(1 - sine * sine);
+    aerial->highest_mu = r > top ? -sqrt(1 - top / r * (top / r)) : 1;
+#pragma omp parallel for schedule(dynamic, 4) num_threads(aerial->worker_count)
+    for (int row = 0; row < AERIAL_ROWS; row++) {
+        const unsigned state = lanes_flush_denormals();
+        march_row(aerial, &aerial->workers[lanes_thread()], row, sun_mu);
+        lanes_restore(state);
+    }
+}

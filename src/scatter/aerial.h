@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SCATTER_AERIAL_H
+#define SCATTER_AERIAL_H
+// Aerial perspective for one eye and sun: the light that the air adds and takes between the eye and
+// any point before the ground, marched through the solved source. It needs no difference of table
+// values, which bands on near terrain.
+//
+// Stored are means over the way through the air: in-scattered radiance per metre (channels as in
+// table.h) and extinction per metre, which are smooth down to no distance at all. Rows by
+// shared/sky_map.glsl: first those that meet the reference sphere, then those that pass above it.
+
+#include "scatter/atmosphere.h"
+
+enum {
+    AERIAL_DEPTHS = 32,
+    AERIAL_AZIMUTHS = 16,
+    AERIAL_GROUND_ROWS = 64,
+    AERIAL_AIR_ROWS = 32,
+    AERIAL_ROWS = AERIAL_GROUND_ROWS + AERIAL_AIR_ROWS
+};
+
+struct aerial {
+    const struct atmosphere *atmosphere;
+    double eye_radius_m;
+    double nearest_m, farthest_m;           // of the rows on the ground: nadir, horizon
+    double horizon_mu, highest_mu;          // of the rows above
+    float *scattered[1 + TABLE_MAX_PEAKED]; // [row][azimuth][depth][BAND_COUNT]
+    float *extinction;                      // [row][depth][BAND_COUNT]
+    struct aerial_worker *workers;
+    int worker_count;
+};
+
+TRL_MUST_USE trl_result aerial_init(const struct atmosphere *atmosphere, struct aerial *out);
+void aerial_finish(struct aerial *aerial);
+
+// Computes all for an eye; about 10 ms on two cores. An eye below AERIAL_MIN_ALTITUDE_M counts as
+// there.
+#define AERIAL_MIN_ALTITUDE_M 0.5
+void aerial_update(struct aerial *aerial, double radius_m, double sun_mu);
+
+#endif // SCATTER_AERIAL_H

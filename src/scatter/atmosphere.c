@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "scatter/atmosphere.h"
+
+#include "scatter/cache.h"
+
+#include <time.h>
+
+// The range that matters for colours: the observer's functions are below 1 % of their peaks
+// outside.
+static const double FIRST_NM = 385;
+static const double LAST_NM = 715;
+
+struct atmosphere_desc atmosphere_desc_default(void)
+{
+    return (struct atmosphere_desc){.wavelengths = LANES, .uses_cache = true};
+}
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void fill_optics(struct optics *optics, const struct medium *medium, uint32_t count)
+{
+    double nm[LANES];
+    for (uint32_t k = 0; k < count; k++) {
+        nm[k] = count > 1 ? FIRST_NM + (LAST_NM - FIRST_NM) * k / (count - 1) : 550;
+    }
+    optics_init(optics, medium, nm, (int)count);
+}
+
+static trl_result choose_bands(struct atmosphere *a)
+{
+    struct band_fit fit;
+    band_fit_init(&fit, a->optics);
+    const trl_result result = table_sample_spectra(a->ctx, &a->solution, &fit);
+    if (result == TRL_OK) {
+        band_fit_choose(&fit, &a->bands);
+        trl_log(a->ctx, TRL_LOG_DEBUG, TRL_LOG_ITEM_SOLVER,
+                "bands at %.0f, %.0f, %.0f, %.0f nm reproduce colours to %.2f %%", a->bands.nm[0],
+                a->bands.nm[1], a->bands.nm[2], a->bands.nm[3], 100 * a->bands.rms_error);
+    }
+    return result;
+}
+
+static trl_result compute(struct atmosphere *a, const struct solver_settings *settings)
+{
+    const double start = seconds();
+    trl_result result = solution_init(a->ctx, a->optics, settings, &a->solution);
+    const double solved = seconds();
+    if (result == TRL_OK) {
+        result = choose_bands(a);
+    }
+    if (result == TRL_OK) {
+        result = table_init(a->ctx, &a->solution, &a->peaked, &a->bands, &a->table);
+    }
+    a->stats.solve_s = solved - start;
+    a->stats.table_s = seconds() - solved;
+    return result;
+}
+
+// Reserves what the cache fills. Anything less than success leaves the arrays empty again.
+static bool load(struct atmosphere *a, const struct solver_settings *settings)
+{
+    const double start = seconds();
+    struct solution *s = &a->solution;
+    const bool is_loaded =
+        solution_reserve(a->ctx, a->optics, settings, s) == TRL_OK &&
+        table_reserve(a->ctx, &s->moments, 1 + a->peaked.count, &a->table) == TRL_OK &&
+        cache_load(a, settings);
+    if (!is_loaded) {
+        solution_finish(a->ctx, s);
+        table_finish(a->ctx, &a->table);
+    }
+    a->stats.load_s = is_loaded ? seconds() - start : 0;
+    a->stats.is_from_cache = is_loaded;
+    return is_loaded;
+}
+
+static void measure(struct atmosphere *a)
+{
+    const struct moments *m = &a->solution.moments;
+    a->stats.orders = a->solution.orders;
+    a->stats.solution_bytes =
+        ((size_t)m->levels * (size_t)m->suns * (size_t)harmonic_count(m->lmax) +
+         (size_t)a->solution.sun.levels * (size_t)a->solution.sun.columns) *
+        sizeof(lanes);
+    a->stats.table_bytes = table_texels(&a->table) * sizeof(float);
+}
+
+trl_result atmosphere_create(const trl_context *ctx, const struct medium *medium,
+                             const struct atmosphere_desc *desc, struct atmosphere **out)
+{
+    *out = NULL;
+    if (desc->wavelengths < 1 || desc->wavelengths > LANES) {
+        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                        "%u wavelengths cannot be solved: from 1 to %d", desc->wavelengths, LANES);
+    }
+    struct atmosphere *a = mem_alloc(ctx, 1, sizeof *a);
+    if (!a) {
+        return TRL_ERROR_MEMORY;
+    }
+    a->ctx = ctx;
+    a->optics = mem_alloc(ctx, 1, sizeof *a->optics);
+    trl_result result = a->optics ? TRL_OK : TRL_ERROR_MEMORY;
+    if (result == TRL_OK) {
+        fill_optics(a->optics, medium, desc->wavelengths);
+        a->peaked = peaked_choose(a->optics);
+        const struct solver_settings settings =
+            solver_settings_choose(a->optics, SOLVER_INTERACTIVE);
+        const bool has_cache = desc->uses_cache && ctx->cache_dir[0] != '\0';
+        if (!has_cache || !load(a, &settings)) {
+            result = compute(a, &settings);
+            if (result == TRL_OK && has_cache) {
+                cache_store(a, &settings);
+            }
+        }
+    }
+    if (result != TRL_OK) {
+        atmosphere_destroy(&a);
+        return result;
+    }
+    measure(a);
+    *out = a;
+    return TRL_OK;
+}
+
+void atmosphere_destroy(struct atmosphere **atmosphere)
+{
+    struct atmosphere *a = *atmosphere;
+    if (!a) {
+        return;
+    }
+    const trl_context *ctx = a->ctx;
+    table_finish(ctx, &a->table);
+    solution_finish(ctx, &a->solution);
+    mem_free(ctx, a->optics);
+    mem_free(ctx, a);
+    *atmosphere = NULL;
+}

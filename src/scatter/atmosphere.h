@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SCATTER_ATMOSPHERE_H
+#define SCATTER_ATMOSPHERE_H
+// Everything that pictures need of an atmosphere, solved once or taken from the cache.
+
+#include "scatter/table.h"
+
+struct atmosphere_desc {
+    uint32_t wavelengths; // for the solver, 1 .. LANES
+    bool uses_cache;
+};
+
+struct atmosphere_desc atmosphere_desc_default(void); // 16, cached
+
+struct atmosphere_stats {
+    double solve_s, table_s; // 0 when from the cache
+    double load_s;           // 0 when computed
+    int orders;
+    size_t solution_bytes, table_bytes;
+    bool is_from_cache;
+};
+
+struct atmosphere {
+    const trl_context *ctx;
+    struct optics *optics;
+    struct solution solution;
+    struct peaked peaked;
+    struct bands bands;
+    struct table table;
+    struct atmosphere_stats stats;
+};
+
+// The medium must outlive the atmosphere. Blocks for about a second, or 0.1 s from the cache.
+// TRL_ERROR_INVALID: more wavelengths than there are lanes; TRL_ERROR_MEMORY; TRL_ERROR_CANCELLED.
+// A cache that cannot be read or written is only a warning.
+TRL_MUST_USE trl_result atmosphere_create(const trl_context *ctx, const struct medium *medium,
+                                          const struct atmosphere_desc *desc,
+                                          struct atmosphere **out);
+void atmosphere_destroy(struct atmosphere **atmosphere);
+
+#endif // SCATTER_ATMOSPHERE_H

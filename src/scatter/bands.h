@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SCATTER_BANDS_H
+#define SCATTER_BANDS_H
+// Four of the solver's wavelengths stand for all of them on the GPU: one texture holds four
+// channels. Light of single wavelengths multiplies exactly (albedo, attenuation), which colours do
+// not; the colour comes last, by a matrix fitted so that the four reproduce what all wavelengths
+// give. docs/decisions/003-four-bands.md
+
+#include "scatter/optics.h"
+
+enum { BAND_COUNT = 4 };
+
+struct bands {
+    int lane[BAND_COUNT]; // in the optics, ascending
+    double nm[BAND_COUNT];
+    // Linear sRGB in cd m^-2 of radiance per unit irradiance of the star (sr^-1) in the bands.
+    float rgb_from_bands[3][BAND_COUNT];
+    // Albedo in the bands of a surface that has this linear sRGB colour in the star's own light.
+    float bands_from_rgb[BAND_COUNT][3];
+    double rms_error; // of the fit: RMS difference in linear sRGB relative to the luminance
+};
+
+// Collects the spectra that the scene really has, then chooses.
+struct band_fit {
+    const struct optics *optics;
+    double rgb_from_lanes[3][LANES]; // the exact matrix, from the star's fine spectrum and CIE 1931
+    double gram[LANES][LANES];       // weighted products of the spectra seen
+};
+
+void band_fit_init(struct band_fit *fit, const struct optics *optics);
+// Adds a spectrum of radiance per unit irradiance; every spectrum counts the same, whatever its
+// brightness.
+void band_fit_add(struct band_fit *fit, const lanes *spectrum);
+// Tries every choice of four wavelengths: least squares of each through the Gram matrix.
+void band_fit_choose(const struct band_fit *fit, struct bands *out);
+
+#endif // SCATTER_BANDS_H

@@ -1,0 +1,352 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "scatter/table.h"
+
+#include "shared/phase.glsl"
+#include "shared/sky_map.glsl"
+
+#include <math.h>
+#include <string.h>
+
+static const double NODES_PER_SHELL = 12;
+static const double MORE_NODES_PER_DEPTH = 12;
+// A phase function whose third moment is above this has a peak that eight azimuths would blur.
+static const double PEAKED_MOMENT = 0.05;
+
+struct peaked peaked_choose(const struct optics *optics)
+{
+    struct peaked p = {0};
+    bool is_taken[MEDIUM_MAX_CONSTITUENTS] = {false};
+    while (p.count < TABLE_MAX_PEAKED) {
+        int best = -1;
+        for (int i = 0; i < optics->constituent_count; i++) {
+            const double depth = optics->vertical_scattering_depth[i];
+            if (!is_taken[i] && depth > 0 && fabs(optics->moment[i][3]) > PEAKED_MOMENT &&
+                (best < 0 || depth > optics->vertical_scattering_depth[best])) {
+                best = i;
+            }
+        }
+        if (best < 0) {
+            break;
+        }
+        is_taken[best] = true;
+        p.constituent[p.count++] = best;
+    }
+    return p;
+}
+
+struct transport_channels peaked_channels(const struct peaked *peaked, const struct optics *optics,
+                                          const struct transport_family *family,
+                                          float *const *phase)
+{
+    struct transport_channels channels;
+    for (int i = 0; i < optics->constituent_count; i++) {
+        channels.channel[i] = optics->vertical_scattering_depth[i] > 0 ? 0 : -1;
+        channels.phase[i] = NULL;
+        for (int c = 0; c < peaked->count; c++) {
+            if (peaked->constituent[c] == i) {
+                channels.channel[i] = c + 1;
+            }
+        }
+        if (channels.channel[i] == 0) {
+            for (int t = 0; t < family->count; t++) {
+                phase[i][t] = (float)phase_value(&optics->medium->constituents[i].phase,
+                                                 (double)family->nu[t]);
+            }
+            channels.phase[i] = phase[i];
+        }
+    }
+    return channels;
+}
+
+struct table_size table_size_default(void)
+{
+    return (struct table_size){.altitudes = 32, .views = 128, .suns = 48, .azimuths = 8};
+}
+
+static size_t slice_floats(const struct table *t)
+{
+    return (size_t)t->size.views * t->size.suns * t->size.azimuths * BAND_COUNT;
+}
+
+size_t table_texels(const struct table *t)
+{
+    return (size_t)t->channels * t->size.altitudes * slice_floats(t);
+}
+
+trl_result table_reserve(const trl_context *ctx, const struct moments *moments, int channels,
+                         struct table *out)
+{
+    *out = (struct table){.size = table_size_default(),
+                          .channels = channels,
+                          .sun_centre = moments->sun_centre,
+                          .sun_width = moments->sun_width,
+                          .sun_first = moments->sun_first};
+    out->sun_last = moments->sun_first + (moments->suns - 1) / moments->sun_scale;
+    out->texels = mem_alloc(ctx, table_texels(out), sizeof *out->texels);
+    return out->texels ? TRL_OK : TRL_ERROR_MEMORY;
+}
+
+void table_finish(const trl_context *ctx, struct table *table)
+{
+    mem_free(ctx, table->texels);
+    *table = (struct table){0};
+}
+
+static double table_radius(const struct optics *optics, double coordinate)
+{
+    const double ground = optics->ground_radius_m;
+    const double longest = sqrt((optics->top_radius_m - ground) * (optics->top_radius_m + ground));
+    return sqrt(ground * ground + coordinate * coordinate * longest * longest);
+}
+
+// The ray at the view coordinate: from its distance to the top, mu by the law of cosines.
+static double table_view_mu(const struct optics *optics, double radius_m, double coordinate)
+{
+    const double ground = optics->ground_radius_m;
+    const double top = optics->top_radius_m;
+    const double rise = sqrt(fmax(0, (radius_m - ground) * (radius_m + ground)));
+    const double longest = rise + sqrt((top - ground) * (top + ground));
+    const double distance = fmax(sky_map_view_distance(coordinate, top - radius_m, longest), 1e-3);
+    const double mu =
+        ((top - radius_m) * (top + radius_m) - distance * distance) / (2 * radius_m * distance);
+    const double sine = ground / radius_m;
+    const double horizon_mu = -sqrt(fmax(0, 1 - sine * sine));
+    // A hair above the horizon: this half of the sphere never meets the ground.
+    return fmin(1, fmax(mu, horizon_mu + 1e-10));
+}
+
+struct table_worker {
+    struct ray ray;
+    struct transport_scratch *scratch;
+    float *sun_mu, *nu;
+    float *phase[MEDIUM_MAX_CONSTITUENTS];
+    lanes *radiance[1 + TABLE_MAX_PEAKED];
+};
+
+static void worker_destroy(const trl_context *ctx, struct table_worker *w)
+{
+    if (!w) {
+        return;
+    }
+    transport_scratch_destroy(ctx, &w->scratch);
+    mem_free(ctx, w->sun_mu);
+    mem_free(ctx, w->nu);
+    for (int i = 0; i < MEDIUM_MAX_CONSTITUENTS; i++) {
+        mem_free(ctx, w->phase[i]);
+    }
+    for (int c = 0; c <= TABLE_MAX_PEAKED; c++) {
+        mem_free(ctx, w->radiance[c]);
+    }
+    mem_free(ctx, w);
+}
+
+static struct table_worker *worker_create(const trl_context *ctx, const struct solution *solution,
+                                          int members)
+{
+    struct table_worker *w = mem_alloc(ctx, 1, sizeof *w);
+    if (!w) {
+        return NULL;
+    }
+    w->sun_mu = mem_alloc(ctx, (size_t)members, sizeof(float));
+    w->nu = mem_alloc(ctx, (size_t)members, sizeof(float));
+    bool has_memory = w->sun_mu && w->nu;
+    for (int i = 0; i < solution->optics->constituent_count && has_memory; i++) {
+        w->phase[i] = mem_alloc(ctx, (size_t)members, sizeof(float));
+        has_memory = w->phase[i] != NULL;
+    }
+    for (int c = 0; c <= TABLE_MAX_PEAKED && has_memory; c++) {
+        w->radiance[c] = mem_alloc(ctx, (size_t)members, sizeof(lanes));
+        has_memory = w->radiance[c] != NULL;
+    }
+    if (!has_memory ||
+        transport_scratch_create(ctx, members, solution->moments.suns, &w->scratch) != TRL_OK) {
+        worker_destroy(ctx, w);
+        return NULL;
+    }
+    return w;
+}
+
+// All suns and azimuths of the table under one ray; suns outermost.
+static struct transport_family fill_family(const struct table *table, double mu,
+                                           struct table_worker *w)
+{
+    const double sine = sqrt(fmax(0, 1 - mu * mu));
+    const struct table_size n = table->size;
+    for (int i = 0; i < n.suns; i++) {
+        const double z = table->sun_first + (table->sun_last - table->sun_first) * i / (n.suns - 1);
+        const double sun_mu = fmin(1, table->sun_centre + table->sun_width * sinh(z));
+        const double sun_sine = sqrt(fmax(0, 1 - sun_mu * sun_mu));
+        for (int p = 0; p < n.azimuths; p++) {
+            const double cos_azimuth = 1 - 2.0 * p / (n.azimuths - 1);
+            w->sun_mu[i * n.azimuths + p] = (float)sun_mu;
+            w->nu[i * n.azimuths + p] = (float)(mu * sun_mu + sine * sun_sine * cos_azimuth);
+        }
+    }
+    return (struct transport_family){n.suns * n.azimuths, w->sun_mu, w->nu};
+}
+
+static struct transport_family gather(const struct table *table, const struct solution *solution,
+                                      const struct peaked *peaked, double radius_m, double mu,
+                                      struct table_worker *w)
+{
+    const struct optics *optics = solution->optics;
+    double depth = 0;
+    for (int k = 0; k < LANES; k++) {
+        depth = fmax(depth, optics->vertical_depth[k]);
+    }
+    const struct ray_desc desc = {.radius_m = radius_m,
+                                  .mu = mu,
+                                  .nodes_per_shell =
+                                      NODES_PER_SHELL + MORE_NODES_PER_DEPTH * fmin(depth, 8),
+                                  .end_m = INFINITY};
+    ray_init(&w->ray, optics, solution->rules, &desc);
+    const struct transport_family family = fill_family(table, mu, w);
+    for (int c = 0; c <= peaked->count; c++) {
+        memset(w->radiance[c], 0, (size_t)family.count * sizeof(lanes));
+    }
+    const struct transport_channels channels = peaked_channels(peaked, optics, &family, w->phase);
+    transport_add_single(&solution->sun, &w->ray, &family, &channels, w->radiance, w->scratch);
+    transport_add_multiple(&solution->moments, &w->ray, &family, w->radiance[0], w->scratch);
+    return family;
+}
+
+static void store(const struct table *table, const struct transport_family *family,
+                  const struct bands *bands, const struct table_worker *w, size_t ray_index)
+{
+    for (int c = 0; c < table->channels; c++) {
+        float *texel = table->texels + (size_t)c * table->size.altitudes * slice_floats(table) +
+                       ray_index * family->count * BAND_COUNT;
+        for (int t = 0; t < family->count; t++) {
+            const double scale = c == 0 ? 1 / phase_rayleigh((double)family->nu[t]) : 1;
+            for (int b = 0; b < BAND_COUNT; b++) {
+                texel[t * BAND_COUNT + b] =
+                    (float)((double)w->radiance[c][t][bands->lane[b]] * scale);
+            }
+        }
+    }
+}
+
+trl_result table_init(const trl_context *ctx, const struct solution *solution,
+                      const struct peaked *peaked, const struct bands *bands, struct table *out)
+{
+    trl_result result = table_reserve(ctx, &solution->moments, 1 + peaked->count, out);
+    if (result != TRL_OK) {
+        return result;
+    }
+    const struct table_size n = out->size;
+    bool has_memory = true;
+    // A block of altitudes at a time, so that the user can be told, and can stop it.
+    enum { BLOCK = 4 };
+    for (int first = 0; first < n.altitudes && result == TRL_OK; first += BLOCK) {
+        const int rays = (n.altitudes - first < BLOCK ? n.altitudes - first : BLOCK) * n.views;
+#pragma omp parallel
+        {
+            struct table_worker *w = worker_create(ctx, solution, n.suns * n.azimuths);
+            const unsigned state = lanes_flush_denormals();
+#pragma omp for schedule(dynamic, 8)
+            for (int r = 0; r < rays; r++) {
+                if (!w) {
+                    has_memory = false;
+                    continue;
+                }
+                const size_t index = (size_t)first * n.views + r;
+                const double radius_m =
+                    table_radius(solution->optics, (double)(index / n.views) / (n.altitudes - 1));
+                const double mu = table_view_mu(solution->optics, radius_m,
+                                                (double)(index % n.views) / (n.views - 1));
+                const struct transport_family family =
+                    gather(out, solution, peaked, radius_m, mu, w);
+                store(out, &family, bands, w, index);
+            }
+            lanes_restore(state);
+            worker_destroy(ctx, w);
+        }
+        result = has_memory ? trl_progress(ctx, "tabulating the sky",
+                                           (double)(first + BLOCK) / (n.altitudes + BLOCK))
+                            : TRL_ERROR_MEMORY;
+    }
+    if (result != TRL_OK) {
+        table_finish(ctx, out);
+    }
+    return result;
+}
+
+void table_slice(const struct table *table, const struct optics *optics, int channel,
+                 double radius_m, float *texels)
+{
+    const double ground = optics->ground_radius_m;
+    const double top = optics->top_radius_m;
+    const double square = fmax(0, (radius_m - ground) * (radius_m + ground));
+    const double longest = (top - ground) * (top + ground);
+    const double position = fmin(sqrt(square / longest), 1) * (table->size.altitudes - 1);
+    const int below =
+        position < table->size.altitudes - 2 ? (int)position : table->size.altitudes - 2;
+    const float part = (float)(position - below);
+    const size_t count = slice_floats(table);
+    const float *a =
+        table->texels + ((size_t)channel * table->size.altitudes + (size_t)below) * count;
+    const float *b = a + count;
+    for (size_t k = 0; k < count; k++) {
+        texels[k] = a[k] + (b[k] - a[k]) * part;
+    }
+}
+
+// Grey, bluish, reddish, greenish and purplish surfaces in plain light: what the ground may look
+// like.
+static void add_slopes(struct band_fit *fit)
+{
+    const struct optics *optics = fit->optics;
+    const int last = optics->wavelength_count - 1;
+    for (int shape = 0; shape < 5; shape++) {
+        lanes spectrum;
+        for (int k = 0; k < LANES; k++) {
+            const double x = last > 0 ? (double)(k < last ? k : last) / last : 0.5;
+            const double values[5] = {1, 1 - 0.8 * x, 0.2 + 0.8 * x, 1 - 0.9 * fabs(2 * x - 1),
+                                      0.2 + 0.8 * fabs(2 * x - 1)};
+            spectrum[k] = (float)values[shape];
+        }
+        band_fit_add(fit, &spectrum);
+    }
+}
+
+trl_result table_sample_spectra(const trl_context *ctx, const struct solution *solution,
+                                struct band_fit *fit)
+{
+    // Altitudes from the ground to the top, rays from the horizon to the zenith.
+    static const double altitude[] = {0, 0.1, 0.4, 1};
+    static const double view[] = {0, 0.5, 0.8, 0.9, 0.97, 1};
+    const struct moments *m = &solution->moments;
+    struct table shape = {.size = table_size_default(),
+                          .sun_centre = m->sun_centre,
+                          .sun_width = m->sun_width,
+                          .sun_first = m->sun_first};
+    shape.sun_last = m->sun_first + (m->suns - 1) / m->sun_scale;
+    const struct peaked none = {0};
+    struct table_worker *w = worker_create(ctx, solution, shape.size.suns * shape.size.azimuths);
+    if (!w) {
+        return TRL_ERROR_MEMORY;
+    }
+    const unsigned state = lanes_flush_denormals();
+    for (size_t j = 0; j < sizeof altitude / sizeof *altitude; j++) {
+        const double radius_m = table_radius(solution->optics, altitude[j]);
+        for (size_t v = 0; v < sizeof view / sizeof *view; v++) {
+            const double mu = table_view_mu(solution->optics, radius_m, view[v]);
+            const struct transport_family family = gather(&shape, solution, &none, radius_m, mu, w);
+            // Suns from the third on: before, nobody sees a colour.
+            for (int t = 2 * shape.size.azimuths; t < family.count; t += 5) {
+                band_fit_add(fit, &w->radiance[0][t]);
+            }
+        }
+    }
+    for (int degree = 0; degree <= 90; degree += 5) {
+        lanes light;
+        sunlight_at(&solution->sun, solution->optics->ground_radius_m, cos(degree * M_PI / 180),
+                    &light);
+        band_fit_add(fit, &light);
+    }
+    add_slopes(fit);
+    lanes_restore(state);
+    worker_destroy(ctx, w);
+    return TRL_OK;
+}

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "sky/ground_light.h"
+
+#include "shared/sky_map.glsl"
+
+#include <math.h>
+
+static double altitude_of(int row, double highest_m)
+{
+    return highest_m * row / (GROUND_LIGHT_ALTITUDES - 1);
+}
+
+static void store(const struct bands *bands, const lanes *light, float *texel)
+{
+    for (int b = 0; b < BAND_COUNT; b++) {
+        texel[b] = (*light)[bands->lane[b]];
+    }
+}
+
+void ground_light_of_star(const struct atmosphere *a, double highest_m, float *texels)
+{
+    const double ground = a->optics->ground_radius_m;
+    const double disc_rad = a->solution.sun.disc_rad;
+    for (int row = 0; row < GROUND_LIGHT_ALTITUDES; row++) {
+        const double altitude_m = altitude_of(row, highest_m);
+        const double lowest = sky_map_lowest_sun(ground, altitude_m, cos(disc_rad), sin(disc_rad));
+        const double scale = log(1 + (1 - lowest) / SUNLIGHT_SOFT);
+        for (int c = 0; c < GROUND_LIGHT_SUNS; c++) {
+            const double x = (double)c / (GROUND_LIGHT_SUNS - 1);
+            lanes light;
+            sunlight_at(&a->solution.sun, ground + altitude_m,
+                        lowest + SUNLIGHT_SOFT * expm1(x * scale), &light);
+            store(&a->bands, &light, texels + ((size_t)row * GROUND_LIGHT_SUNS + c) * BAND_COUNT);
+        }
+    }
+}
+
+// Half-space integral of the radiance's expansion: the clamped cosine has the Legendre moments pi,
+// 2 pi / 3, pi / 4, 0, -pi / 24 (l = 0, 1, 2, 3, 4), and only m = 0 counts for level ground. Cut
+// off at l = 4 it is rough where sky and ground differ much, so its change with altitude scales the
+// exact irradiance at the ground.
+static lanes expand_irradiance(const struct moments *m, int level, int sun)
+{
+    static const double cosine_moment[] = {M_PI, 2 * M_PI / 3, M_PI / 4, 0, -M_PI / 24};
+    const int harmonics = harmonic_count(m->lmax);
+    const lanes *a = m->radiance + ((size_t)level * (size_t)m->suns + (size_t)sun) * harmonics;
+    double harmonic[(OPTICS_MAX_DEGREE + 1) * (OPTICS_MAX_DEGREE + 2) / 2];
+    harmonic_values(m->lmax, 1, harmonic);
+    lanes sum = {0};
+    for (int l = 0; l <= m->lmax && l <= 4; l++) {
+        const int h = harmonic_index(l, 0);
+        sum += a[h] * (float)(cosine_moment[l] * harmonic[h]);
+    }
+    return lanes_max(sum, lanes_set(0));
+}
+
+void ground_light_of_sky(const struct atmosphere *a, double highest_m, float *texels)
+{
+    const struct moments *m = &a->solution.moments;
+    for (int row = 0; row < GROUND_LIGHT_ALTITUDES; row++) {
+        const double shell = optics_shell(a->optics, altitude_of(row, highest_m));
+        const double position = shell * (m->levels - 1);
+        const int level = position < m->levels - 2 ? (int)position : m->levels - 2;
+        const float part = (float)(position - level);
+        for (int i = 0; i < m->suns; i++) {
+            const lanes below = expand_irradiance(m, level, i);
+            const lanes above = expand_irradiance(m, level + 1, i);
+            const lanes here = below + (above - below) * part;
+            const lanes base = lanes_max(expand_irradiance(m, 0, i), lanes_set(1e-30f));
+            const lanes light = m->irradiance[i] * here / base;
+            store(&a->bands, &light, texels + ((size_t)row * (size_t)m->suns + i) * BAND_COUNT);
+        }
+    }
+}

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SKY_GROUND_LIGHT_H
+#define SKY_GROUND_LIGHT_H
+// Tables of the light that falls on the ground, over the star's zenith angle and the ground's
+// altitude (uniform from 0 to the highest), in four bands per unit irradiance of the star.
+
+#include "scatter/atmosphere.h"
+
+enum { GROUND_LIGHT_SUNS = 256, GROUND_LIGHT_ALTITUDES = 16 };
+
+// Direct light, by the coordinate sky_map_sunlight: [altitude][GROUND_LIGHT_SUNS][BAND_COUNT].
+void ground_light_of_star(const struct atmosphere *atmosphere, double highest_m, float *texels);
+
+// Irradiance of level ground by the sky, by the sun grid of the moments:
+// [altitude][suns][BAND_COUNT].
+void ground_light_of_sky(const struct atmosphere *atmosphere, double highest_m, float *texels);
+
+#endif // SKY_GROUND_LIGHT_H

@@ -1,0 +1,320 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "sky/sky.h"
+
+#include "sky/ground_light.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { PHASE_SAMPLES = 1024 };
+
+static const char *const SLICE_NAMES[] = {"u_slice0", "u_slice1", "u_slice2", "u_slice3"};
+static const char *const SCATTERED_NAMES[] = {"u_scattered0", "u_scattered1", "u_scattered2",
+                                              "u_scattered3"};
+
+static trl_result make_texture(struct gpu *gpu, const char *label, uint32_t width, uint32_t height,
+                               uint32_t depth, struct gpu_texture *out)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = label;
+    desc.shape = depth > 1 ? GPU_SHAPE_3D : GPU_SHAPE_2D;
+    desc.format = GPU_FORMAT_RGBA32F;
+    desc.width = width;
+    desc.height = height;
+    desc.depth = depth;
+    return gpu_texture_init(gpu, &desc, out);
+}
+
+static trl_result upload(struct gpu_texture *texture, const float *texels)
+{
+    const struct gpu_region region = gpu_texture_region(texture, 0);
+    return gpu_texture_upload(texture, &region, texels);
+}
+
+static trl_result make_maps(struct sky *sky)
+{
+    const struct table *table = &sky->atmosphere->table;
+    trl_result result =
+        make_texture(sky->gpu, "extinction", AERIAL_DEPTHS, AERIAL_ROWS, 1, &sky->extinction);
+    for (int c = 0; c < table->channels && result == TRL_OK; c++) {
+        result =
+            make_texture(sky->gpu, "sky slice", (uint32_t)table->size.azimuths,
+                         (uint32_t)table->size.suns, (uint32_t)table->size.views, &sky->slice[c]);
+        if (result == TRL_OK) {
+            result = make_texture(sky->gpu, "aerial perspective", AERIAL_DEPTHS, AERIAL_AZIMUTHS,
+                                  AERIAL_ROWS, &sky->scattered[c]);
+        }
+    }
+    if (result == TRL_OK) {
+        result = make_texture(sky->gpu, "sunlight", GROUND_LIGHT_SUNS, GROUND_LIGHT_ALTITUDES, 1,
+                              &sky->sunlight);
+    }
+    if (result == TRL_OK) {
+        result =
+            make_texture(sky->gpu, "skylight", (uint32_t)sky->atmosphere->solution.moments.suns,
+                         GROUND_LIGHT_ALTITUDES, 1, &sky->skylight);
+    }
+    return result;
+}
+
+// The peaked constituents' phase functions over the sine of half the angle, which spreads the
+// forward peak.
+static trl_result make_phase(struct sky *sky)
+{
+    const struct atmosphere *a = sky->atmosphere;
+    trl_result result = make_texture(sky->gpu, "phase", PHASE_SAMPLES, 1, 1, &sky->phase);
+    float *texels = mem_alloc(a->ctx, PHASE_SAMPLES * 4, sizeof *texels);
+    if (!texels) {
+        return TRL_ERROR_MEMORY;
+    }
+    for (int s = 0; s < PHASE_SAMPLES; s++) {
+        const double x = (double)s / (PHASE_SAMPLES - 1);
+        for (int c = 0; c < a->peaked.count; c++) {
+            const struct constituent *k =
+                &a->optics->medium->constituents[a->peaked.constituent[c]];
+            texels[4 * s + c] = (float)phase_value(&k->phase, 1 - 2 * x * x);
+        }
+    }
+    result = result == TRL_OK ? upload(&sky->phase, texels) : result;
+    mem_free(a->ctx, texels);
+    return result;
+}
+
+static trl_result make_programs(struct sky *sky)
+{
+    char peaked[32];
+    snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", sky->atmosphere->peaked.count);
+    const char *const defines[] = {peaked, "SURFACE"};
+    struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+                                    .fragment = "sky/sky.frag",
+                                    .defines = defines,
+                                    .define_count = 1};
+    trl_result result = gpu_program_init(sky->gpu, &desc, &sky->bare);
+    if (result == TRL_OK) {
+        desc.define_count = 2;
+        result = gpu_program_init(sky->gpu, &desc, &sky->surface);
+    }
+    return result;
+}
+
+trl_result sky_init(struct gpu *gpu, const struct atmosphere *atmosphere, struct sky *out)
+{
+    *out = (struct sky){.gpu = gpu, .atmosphere = atmosphere, .highest_m = -1};
+    const struct table_size n = atmosphere->table.size;
+    out->texels = mem_alloc(atmosphere->ctx, (size_t)n.views * n.suns * n.azimuths * BAND_COUNT,
+                            sizeof(float));
+    trl_result result = out->texels ? aerial_init(atmosphere, &out->aerial) : TRL_ERROR_MEMORY;
+    if (result == TRL_OK) {
+        result = make_programs(out);
+    }
+    if (result == TRL_OK) {
+        result = make_maps(out);
+    }
+    if (result == TRL_OK) {
+        result = make_phase(out);
+    }
+    if (result != TRL_OK) {
+        sky_finish(out);
+    }
+    return result;
+}
+
+void sky_finish(struct sky *sky)
+{
+    if (!sky->gpu) {
+        return;
+    }
+    gpu_program_finish(&sky->bare);
+    gpu_program_finish(&sky->surface);
+    for (int c = 0; c <= TABLE_MAX_PEAKED; c++) {
+        gpu_texture_finish(&sky->slice[c]);
+        gpu_texture_finish(&sky->scattered[c]);
+    }
+    gpu_texture_finish(&sky->extinction);
+    gpu_texture_finish(&sky->sunlight);
+    gpu_texture_finish(&sky->skylight);
+    gpu_texture_finish(&sky->phase);
+    mem_free(sky->atmosphere->ctx, sky->texels);
+    aerial_finish(&sky->aerial);
+    *sky = (struct sky){0};
+}
+
+// The eye as the tables know it: never below the reference sphere.
+static double eye_radius(const struct sky *sky, const struct camera *camera)
+{
+    return fmax(vec3_length(camera->position_m),
+                sky->atmosphere->optics->ground_radius_m + AERIAL_MIN_ALTITUDE_M);
+}
+
+static trl_result update_slices(struct sky *sky, double radius_m)
+{
+    const struct atmosphere *a = sky->atmosphere;
+    const double at_m = fmin(radius_m, a->optics->top_radius_m);
+    trl_result result = TRL_OK;
+    for (int c = 0; c < a->table.channels && result == TRL_OK && sky->slice_radius_m != at_m; c++) {
+        table_slice(&a->table, a->optics, c, at_m, sky->texels);
+        result = upload(&sky->slice[c], sky->texels);
+    }
+    sky->slice_radius_m = result == TRL_OK ? at_m : 0;
+    return result;
+}
+
+static trl_result update_aerial(struct sky *sky, double radius_m, double sun_mu)
+{
+    if (sky->aerial_radius_m == radius_m && sky->aerial_sun_mu == sun_mu) {
+        return TRL_OK;
+    }
+    aerial_update(&sky->aerial, radius_m, sun_mu);
+    trl_result result = upload(&sky->extinction, sky->aerial.extinction);
+    for (int c = 0; c < sky->atmosphere->table.channels && result == TRL_OK; c++) {
+        result = upload(&sky->scattered[c], sky->aerial.scattered[c]);
+    }
+    sky->aerial_radius_m = result == TRL_OK ? radius_m : 0;
+    sky->aerial_sun_mu = sun_mu;
+    return result;
+}
+
+static trl_result update_ground_light(struct sky *sky, double highest_m)
+{
+    const double height_m =
+        sky->atmosphere->optics->top_radius_m - sky->atmosphere->optics->ground_radius_m;
+    const double wanted_m = fmin(fmax(highest_m, 100), height_m);
+    if (sky->highest_m == wanted_m) {
+        return TRL_OK;
+    }
+    const trl_context *ctx = sky->atmosphere->ctx;
+    const size_t suns = (size_t)sky->atmosphere->solution.moments.suns;
+    const size_t most = suns > GROUND_LIGHT_SUNS ? suns : GROUND_LIGHT_SUNS;
+    float *texels = mem_alloc(ctx, most * GROUND_LIGHT_ALTITUDES * BAND_COUNT, sizeof *texels);
+    if (!texels) {
+        return TRL_ERROR_MEMORY;
+    }
+    ground_light_of_star(sky->atmosphere, wanted_m, texels);
+    trl_result result = upload(&sky->sunlight, texels);
+    if (result == TRL_OK) {
+        ground_light_of_sky(sky->atmosphere, wanted_m, texels);
+        result = upload(&sky->skylight, texels);
+    }
+    mem_free(ctx, texels);
+    sky->highest_m = result == TRL_OK ? wanted_m : -1;
+    return result;
+}
+
+trl_result sky_prepare(struct sky *sky, const struct camera *camera, double highest_m)
+{
+    const double radius_m = eye_radius(sky, camera);
+    const double sun_mu = vec3_dot(vec3_normalize(camera->position_m), camera->sun_direction);
+    trl_result result = update_slices(sky, radius_m);
+    if (result == TRL_OK) {
+        result = update_aerial(sky, radius_m, sun_mu);
+    }
+    return result == TRL_OK ? update_ground_light(sky, highest_m) : result;
+}
+
+static void set_vec3(struct gpu_program *program, const char *name, struct vec3 v)
+{
+    const float values[3] = {(float)v.x, (float)v.y, (float)v.z};
+    gpu_program_set_vec3(program, name, values);
+}
+
+static void set_vec4(struct gpu_program *program, const char *name, double x, double y, double z,
+                     double w)
+{
+    const float values[4] = {(float)x, (float)y, (float)z, (float)w};
+    gpu_program_set_vec4(program, name, values);
+}
+
+static void set_view(const struct sky *sky, struct gpu_program *program,
+                     const struct camera *camera, const struct gpu_target *target)
+{
+    const struct optics *optics = sky->atmosphere->optics;
+    const double ground = optics->ground_radius_m;
+    const double top = optics->top_radius_m;
+    const double radius_m = eye_radius(sky, camera);
+    const struct vec3 up = vec3_normalize(camera->position_m);
+    set_vec3(program, "u_eye_up", up);
+    set_vec3(program, "u_sun", camera->sun_direction);
+    set_vec3(program, "u_forward", camera->forward);
+    set_vec3(program, "u_right", vec3_scale(camera->right, camera->tan_half_fov_x));
+    set_vec3(program, "u_up", vec3_scale(camera->up, camera->tan_half_fov_y));
+    set_vec4(program, "u_eye", radius_m, radius_m - ground, vec3_dot(up, camera->sun_direction),
+             radius_m > top);
+    set_vec4(program, "u_planet", ground, top - ground, sqrt((top - ground) * (top + ground)), 0);
+    set_vec4(program, "u_rows", sky->aerial.nearest_m, sky->aerial.farthest_m,
+             sky->aerial.horizon_mu, sky->aerial.highest_mu);
+    const double disc_rad = sky->atmosphere->solution.sun.disc_rad;
+    set_vec4(program, "u_disc", cos(disc_rad), sin(disc_rad),
+             2 * camera->tan_half_fov_y / target->height, GROUND_LIGHT_SUNS);
+    set_vec4(program, "u_ground_light", 0, sky->highest_m, SUNLIGHT_SOFT, GROUND_LIGHT_ALTITUDES);
+}
+
+// Columns of the matrices of the bands, as the shader multiplies them.
+static void set_colours(const struct sky *sky, struct gpu_program *program)
+{
+    const struct bands *b = &sky->atmosphere->bands;
+    float white[3];
+    float rgb_from_bands[12];
+    float bands_from_rgb[12];
+    float bands_of_light[12];
+    for (int k = 0; k < 3; k++) {
+        white[k] = 0;
+        for (int r = 0; r < BAND_COUNT; r++) {
+            white[k] += b->rgb_from_bands[k][r];
+            rgb_from_bands[4 * k + r] = b->rgb_from_bands[k][r];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        for (int r = 0; r < BAND_COUNT; r++) {
+            bands_from_rgb[4 * k + r] = b->bands_from_rgb[r][k];
+            bands_of_light[4 * k + r] = white[k] > 0 ? b->bands_from_rgb[r][k] / white[k] : 0;
+        }
+    }
+    gpu_program_set_vec4s(program, "u_rgb_from_bands", rgb_from_bands, 3);
+    gpu_program_set_vec4s(program, "u_bands_from_rgb", bands_from_rgb, 3);
+    gpu_program_set_vec4s(program, "u_bands_of_light", bands_of_light, 3);
+    const lanes *albedo = &sky->atmosphere->optics->ground_albedo;
+    set_vec4(program, "u_ground_albedo", (double)(*albedo)[b->lane[0]],
+             (double)(*albedo)[b->lane[1]], (double)(*albedo)[b->lane[2]],
+             (double)(*albedo)[b->lane[3]]);
+}
+
+static void set_maps(const struct sky *sky, struct gpu_program *program)
+{
+    const struct table *table = &sky->atmosphere->table;
+    const float size[3] = {(float)table->size.azimuths, (float)table->size.suns,
+                           (float)table->size.views};
+    gpu_program_set_vec3(program, "u_slice_size", size);
+    set_vec4(program, "u_aerial_size", AERIAL_DEPTHS, AERIAL_AZIMUTHS, AERIAL_GROUND_ROWS,
+             AERIAL_ROWS);
+    set_vec4(program, "u_sun_grid", table->sun_centre, table->sun_width, table->sun_first,
+             table->sun_last);
+    gpu_program_set_float(program, "u_skylight_suns", (float)sky->skylight.width);
+    for (int c = 0; c < table->channels; c++) {
+        gpu_program_set_texture(program, SLICE_NAMES[c], &sky->slice[c]);
+        gpu_program_set_texture(program, SCATTERED_NAMES[c], &sky->scattered[c]);
+    }
+    gpu_program_set_texture(program, "u_extinction", &sky->extinction);
+    gpu_program_set_texture(program, "u_sunlight", &sky->sunlight);
+    gpu_program_set_texture(program, "u_skylight", &sky->skylight);
+    gpu_program_set_texture(program, "u_phase", &sky->phase);
+}
+
+trl_result sky_draw(struct sky *sky, const struct camera *camera, const struct sky_surface *surface,
+                    const struct gpu_target *target)
+{
+    const bool is_bare = !surface || !surface->position;
+    struct gpu_program *program = is_bare ? &sky->bare : &sky->surface;
+    set_view(sky, program, camera, target);
+    set_colours(sky, program);
+    set_maps(sky, program);
+    if (!is_bare) {
+        gpu_program_set_texture(program, "u_position", surface->position);
+        gpu_program_set_texture(program, "u_albedo", surface->albedo);
+        gpu_program_set_texture(program, "u_normal", surface->normal);
+        gpu_program_set_texture(program, "u_lights", surface->lights);
+    }
+    const struct gpu_pass pass = {.target = target};
+    gpu_pass_begin(sky->gpu, &pass);
+    return gpu_draw_fullscreen(program, "sky");
+}
