@@ -9,22 +9,65 @@ TRL_BEGIN
 
 /// One question about the sky of a scene.
 typedef struct trl_sky_query {
-    double altitude_m;      ///< of the observer above the reference sphere, >= 0; may be above the atmosphere
+    double altitude_m;      ///< of the observer above the reference sphere, >= 0; may be above the
+                            ///< atmosphere
     double sun_zenith_rad;  ///< of the star's centre, [0, pi]
     double view_zenith_rad; ///< [0, pi]; above pi/2 looks down
     double azimuth_rad;     ///< of the view from the star's azimuth
     double wavelength_nm;   ///< > 0
 } trl_sky_query;
 
-/// Spectral radiance in W m^-2 sr^-1 nm^-1 that arrives at the observer from each direction asked for: all
-/// orders of scattering, light reflected by the Lambertian ground where the ray meets it, no solar disc.
-/// The transport is solved at exactly the wavelengths of the queries. Blocks for seconds; uses every core.
+/// Spectral radiance in W m^-2 sr^-1 nm^-1 that arrives at the observer from each direction asked
+/// for: all orders of scattering, light reflected by the Lambertian ground where the ray meets it,
+/// no solar disc. The transport is solved at exactly the wavelengths of the queries. Blocks for
+/// seconds; uses every core.
 /// @param[out] radiance  `count` values, finite
-/// @return TRL_OK; TRL_ERROR_INVALID (a query out of range, its index in the log); TRL_ERROR_MEMORY;
+/// @return TRL_OK; TRL_ERROR_INVALID (a query out of range, its index in the log);
+/// TRL_ERROR_MEMORY;
 ///         TRL_ERROR_CANCELLED
 TRL_API TRL_MUST_USE trl_result trl_sky_radiance(trl_context *ctx, const trl_scene *scene,
                                                  const trl_sky_query *queries, size_t count,
                                                  double *radiance);
+
+/// The light transport of one scene, solved for pictures: moments of all orders and the 4D table.
+/// A renderer makes its own; this is for programs that want to know what it costs, or to fill the
+/// cache. Owner: caller. Lifetime: destroy before its scene and context. Threads: immutable.
+typedef struct trl_atmosphere trl_atmosphere;
+
+typedef struct trl_atmosphere_desc {
+    uint32_t canary;      ///< set by trl_atmosphere_desc_default(); never touch
+    uint32_t wavelengths; ///< for the solver, 1 to 16
+    bool uses_cache;      ///< take from the context's cache folder, and keep there
+} trl_atmosphere_desc;
+
+/// What an atmosphere took and holds.
+typedef struct trl_atmosphere_stats {
+    double solve_s; ///< all orders of scattering; 0 when from the cache
+    double table_s; ///< the 4D table, after that; 0 when from the cache
+    double load_s;  ///< from the cache; 0 when computed
+    int orders;     ///< orders of scattering computed; the rest is the tail of a geometric series
+    size_t solution_bytes;
+    size_t table_bytes;
+    bool is_from_cache;
+    double band_nm[4];       ///< the wavelengths that stand for all on the GPU
+    double band_error_share; ///< RMS colour difference that this makes, relative to the luminance
+} trl_atmosphere_stats;
+
+/// 16 wavelengths, with the cache. Threads: any.
+TRL_API trl_atmosphere_desc trl_atmosphere_desc_default(void);
+
+/// Solves, or takes from the cache. Blocks for about a second; uses every core; tells progress.
+/// @param[out] out  new object, or NULL on failure
+/// @return TRL_OK; TRL_ERROR_INVALID (an argument); TRL_ERROR_MEMORY; TRL_ERROR_CANCELLED
+TRL_API TRL_MUST_USE trl_result trl_atmosphere_create(trl_context *ctx, const trl_scene *scene,
+                                                      const trl_atmosphere_desc *desc,
+                                                      trl_atmosphere **out);
+
+/// Frees *atmosphere and sets it to NULL.
+TRL_API void trl_atmosphere_destroy(trl_atmosphere **atmosphere);
+
+/// Copies the figures. Neither argument may be NULL.
+TRL_API void trl_atmosphere_read_stats(const trl_atmosphere *atmosphere, trl_atmosphere_stats *out);
 
 TRL_END
 #endif // TRL_ATMOSPHERE_H
