@@ -12,7 +12,7 @@ static trl_result solve_once(const struct bench_job *job, const trl_scene *scene
                              trl_atmosphere_stats *stats, double *peak_mb)
 {
     trl_atmosphere_desc desc = trl_atmosphere_desc_default();
-    desc.use_cache = false;
+    desc.uses_cache = false;
     trl_atmosphere *atmosphere = NULL;
     bench_memory_reset();
     trl_result result = trl_atmosphere_create(job->app->ctx, scene, &desc, &atmosphere);
@@ -47,12 +47,12 @@ static trl_result measure(const struct bench_job *job, bool wants_table)
             break;
         }
         const char *name = trl_scene_name(scene);
-        const struct bench_sample solver[] = {{name, "solve", "s", stats.solve_seconds},
+        const struct bench_sample solver[] = {{name, "solve", "s", stats.solve_s},
                                               {name, "orders", "1", (double)stats.orders},
                                               {name, "peak memory", "MB", peak_mb}};
         const struct bench_sample table[] = {
-            {name, "table after solving", "s", stats.table_seconds},
-            {name, "table", "MB", (double)stats.bytes / 1e6}};
+            {name, "table after solving", "s", stats.table_s},
+            {name, "table", "MB", (double)stats.table_bytes / 1e6}};
         result = wants_table ? add_all(job->table, table, 2) : add_all(job->table, solver, 3);
     }
     trl_scene_destroy(&scene);
