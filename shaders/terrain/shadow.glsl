@@ -4,9 +4,11 @@
 // src/terrain/shadow.c.
 #include "shared/hemisphere.glsl"
 
-uniform sampler2D u_shadow_map;
+uniform sampler2D u_shadow_map; // altitude of the shadow, distance to what casts it, m
 uniform vec4 u_shadow; // scale of grid to texture coordinates, power, extent, sphere's radius
 uniform mat3 u_shadow_from_planet;
+uniform float u_shadow_sun;   // angular radius of the sun
+uniform vec3 u_shadow_toward; // to it, local frame
 uniform vec3 u_shadow_offset; // camera - the map's anchor on the sphere, local frame, m
 
 // The cubic B-spline over the map by four linear taps: where one ridge takes over from another the
@@ -38,6 +40,9 @@ float terrain_sun_visibility(vec3 position, float altitude)
     LocalDirection d = LocalDirection(local.x, local.y, local.z);
     vec2 g = local.xy * shadow_map_scale(d, u_shadow.y, u_shadow.z);
     vec2 shadow = shadow_smooth(0.5 + 0.5 * g * u_shadow.x);
+    // The disc crosses the crest over its radius times 1 / cos^2 of its elevation.
+    float sine = dot(u_shadow_toward, normalize(vec3(local.xy, 1.0 + local.z)));
+    float penumbra = max(shadow.y, 1.0) * u_shadow_sun / max(1.0 - sine * sine, 0.01);
     // The part of a disc above a line, nearly: the smooth step has its slope at the middle.
-    return smoothstep(-1.0, 1.0, (altitude - shadow.x) / shadow.y);
+    return smoothstep(-1.0, 1.0, (altitude - shadow.x) / max(penumbra, 0.5));
 }

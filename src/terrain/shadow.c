@@ -7,20 +7,46 @@
 
 #include <math.h>
 
-enum { SIDE = 512, STEPS = 26, HALVINGS = 4 };
-static const double RING_AT_NEAR = 40; // see projection.near_m
+enum { SIDE = 640 };
+static const double RING_AT_NEAR = 50; // see projection.near_m
+// Shadows that fall into view may come from this far outside, in radians: 190 km on Earth.
+static const double OUTSIDE_RAD = 0.03;
+// A place does not shade itself: its altitude in the map is not exactly that of the mesh.
+static const double SELF_CELLS = 0.75;
 // A quarter of the sun's radius: what it moves in 16 seconds of Earth's day.
 static const double SUN_STEP_RAD = 1.2e-3;
 
-static trl_result make_program(struct terrain_shadow *s, size_t elevations)
+static trl_result make_programs(struct terrain_shadow *s)
 {
-    struct surface_defines defines;
-    surface_get_defines(s->surface, elevations, &defines);
-    const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
-                                          .fragment = "terrain/shadow.frag",
-                                          .defines = defines.list,
-                                          .define_count = defines.count};
-    return gpu_program_init(s->gpu, &desc, &s->programs[elevations]);
+    trl_result result = TRL_OK;
+    for (size_t i = 0; i <= s->surface->counts[SURFACE_ELEVATION] && result == TRL_OK; i++) {
+        struct surface_defines defines;
+        surface_get_defines(s->surface, i, &defines);
+        const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+                                              .fragment = "terrain/shadow_height.frag",
+                                              .defines = defines.list,
+                                              .define_count = defines.count};
+        result = gpu_program_init(s->gpu, &desc, &s->heights[i]);
+    }
+    const struct gpu_program_desc spread = {.vertex = "lib/fullscreen.vert",
+                                            .fragment = "terrain/shadow_spread.frag"};
+    return result == TRL_OK ? gpu_program_init(s->gpu, &spread, &s->spread) : result;
+}
+
+static trl_result make_map(struct terrain_shadow *s, int i)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "terrain shadow";
+    // Half floats step by metres: only where nothing better is filtered.
+    desc.format = s->gpu->caps.has_float_linear ? GPU_FORMAT_RG32F : GPU_FORMAT_RG16F;
+    desc.width = desc.height = SIDE;
+    const trl_result result = gpu_texture_init(s->gpu, &desc, &s->maps[i]);
+    if (result != TRL_OK) {
+        return result;
+    }
+    const struct gpu_target_desc target = {
+        .label = "terrain shadow", .color_count = 1, .colors = {{.texture = &s->maps[i]}}};
+    return gpu_target_init(s->gpu, &target, &s->targets[i]);
 }
 
 trl_result terrain_shadow_init(const struct surface *surface, double sun_angular_radius_rad,
@@ -28,20 +54,9 @@ trl_result terrain_shadow_init(const struct surface *surface, double sun_angular
 {
     *out = (struct terrain_shadow){
         .gpu = surface->gpu, .surface = surface, .sun_angular_radius_rad = sun_angular_radius_rad};
-    struct gpu_texture_desc desc = gpu_texture_desc_default();
-    desc.label = "terrain shadow";
-    // Half floats would step by metres.
-    desc.format = surface->gpu->caps.has_float_linear ? GPU_FORMAT_RG32F : GPU_FORMAT_RG16F;
-    desc.width = desc.height = SIDE;
-    trl_result result = gpu_texture_init(out->gpu, &desc, &out->map);
-    if (result == TRL_OK) {
-        const struct gpu_target_desc target = {
-            .label = "terrain shadow", .color_count = 1, .colors = {{.texture = &out->map}}};
-        result = gpu_target_init(out->gpu, &target, &out->target);
-    }
-    for (size_t i = 0; i <= surface->counts[SURFACE_ELEVATION] && result == TRL_OK; i++) {
-        result = make_program(out, i);
-    }
+    trl_result result = make_map(out, 0);
+    result = result == TRL_OK ? make_map(out, 1) : result;
+    result = result == TRL_OK ? make_programs(out) : result;
     if (result != TRL_OK) {
         terrain_shadow_finish(out);
     }
@@ -51,10 +66,13 @@ trl_result terrain_shadow_init(const struct surface *surface, double sun_angular
 void terrain_shadow_finish(struct terrain_shadow *shadow)
 {
     for (size_t i = 0; i <= SURFACE_MAX_LAYERS; i++) {
-        gpu_program_finish(&shadow->programs[i]);
+        gpu_program_finish(&shadow->heights[i]);
     }
-    gpu_target_finish(&shadow->target);
-    gpu_texture_finish(&shadow->map);
+    gpu_program_finish(&shadow->spread);
+    for (int i = 0; i < 2; i++) {
+        gpu_target_finish(&shadow->targets[i]);
+        gpu_texture_finish(&shadow->maps[i]);
+    }
     *shadow = (struct terrain_shadow){0};
 }
 
@@ -64,25 +82,61 @@ static void set_vec3(struct gpu_program *program, const char *name, struct vec3 
     gpu_program_set_vec3(program, name, values);
 }
 
-static trl_result draw_map(struct terrain_shadow *s)
+static void set_map(const struct terrain_shadow *s, struct gpu_program *program)
+{
+    const float map[3] = {SIDE, (float)s->power, (float)s->extent};
+    gpu_program_set_vec3(program, "u_map", map);
+}
+
+static trl_result draw_heights(struct terrain_shadow *s)
 {
     const struct anchor *anchor = &s->projection.anchor;
-    // Peaks that cast shadows into the map may stand outside it.
-    const double highest = surface_max_altitude(s->surface);
-    // A shadow that falls into the map comes from at most 0.05 rad outside (300 km on Earth).
-    struct gpu_program *program = &s->programs[surface_count_elevations(
-        s->surface, anchor->up, s->projection.reach_rad + 0.05)];
-    const float map[4] = {SIDE, (float)s->power, (float)s->extent,
-                          (float)s->sun_angular_radius_rad};
-    const float march[4] = {STEPS, (float)highest, (float)surface_min_altitude(s->surface),
-                            HALVINGS};
+    const size_t count =
+        surface_count_elevations(s->surface, anchor->up, s->projection.reach_rad + OUTSIDE_RAD);
+    struct gpu_program *program = &s->heights[count];
     surface_bind(s->surface, anchor, program);
-    gpu_program_set_vec4(program, "u_map", map);
-    gpu_program_set_vec4(program, "u_march", march);
-    set_vec3(program, "u_sun", anchor_local(anchor, s->sun));
-    const struct gpu_pass pass = {.target = &s->target};
+    set_map(s, program);
+    s->current = 0;
+    const struct gpu_pass pass = {.target = &s->targets[0]};
     gpu_pass_begin(s->gpu, &pass);
-    return gpu_draw_fullscreen(program, "terrain shadow");
+    return gpu_draw_fullscreen(program, "terrain shadow heights");
+}
+
+static trl_result draw_spread(struct terrain_shadow *s, double step, bool is_last)
+{
+    const float spread[4] = {(float)step, is_last ? 1.0f : 0.0f, (float)s->surface->radius_m, 0};
+    gpu_program_set_vec4(&s->spread, "u_spread", spread);
+    gpu_program_set_texture(&s->spread, "u_previous", &s->maps[s->current]);
+    s->current = 1 - s->current;
+    const struct gpu_pass pass = {.target = &s->targets[s->current]};
+    gpu_pass_begin(s->gpu, &pass);
+    return gpu_draw_fullscreen(&s->spread, "terrain shadow");
+}
+
+// How far the highest peak throws its shadow on the lowest ground: there the ray has risen by the
+// range of altitudes, s slope + s^2 / 2 R. The sun is lowest at the edge of what is in reach.
+static double find_longest_shadow(const struct terrain_shadow *s)
+{
+    const double sine = vec3_dot(s->sun, s->projection.anchor.up);
+    const double lowest = asin(fmax(-1, fmin(1, sine))) - s->projection.reach_rad;
+    const double slope = tan(fmax(0, lowest));
+    const double range = surface_max_altitude(s->surface) - surface_min_altitude(s->surface) + 1;
+    const double radius = s->surface->radius_m;
+    return radius * (sqrt(slope * slope + 2 * range / radius) - slope);
+}
+
+static trl_result draw_map(struct terrain_shadow *s)
+{
+    trl_result result = draw_heights(s);
+    const double end = find_longest_shadow(s);
+    set_map(s, &s->spread);
+    set_vec3(&s->spread, "u_sun", anchor_local(&s->projection.anchor, s->sun));
+    // From the cells near the camera on, doubling.
+    double step = s->projection.near_m / RING_AT_NEAR;
+    for (; step < end && result == TRL_OK; step *= 2) {
+        result = draw_spread(s, step, false);
+    }
+    return result == TRL_OK ? draw_spread(s, SELF_CELLS, true) : result;
 }
 
 trl_result terrain_shadow_update(struct terrain_shadow *s, const struct camera *camera)
@@ -94,7 +148,7 @@ trl_result terrain_shadow_update(struct terrain_shadow *s, const struct camera *
     }
     if (is_stale) {
         s->projection = projection_make(s->surface, camera);
-        s->extent = tan(s->projection.reach_rad / 2);
+        s->extent = tan(fmin(s->projection.reach_rad + OUTSIDE_RAD, 3) / 2);
         s->power = projection_power(s->projection.near_m / s->surface->radius_m / 2 / s->extent,
                                     RING_AT_NEAR, SIDE / 2.0);
     }
@@ -113,7 +167,9 @@ void terrain_shadow_bind(const struct terrain_shadow *s, const struct camera *ca
     float local_from_planet[9];
     anchor_local_from_planet(anchor, local_from_planet);
     gpu_program_set_vec4(program, "u_shadow", map);
+    gpu_program_set_float(program, "u_shadow_sun", (float)s->sun_angular_radius_rad);
+    set_vec3(program, "u_shadow_toward", anchor_local(anchor, s->sun));
     gpu_program_set_mat3(program, "u_shadow_from_planet", local_from_planet);
     set_vec3(program, "u_shadow_offset", anchor_local(anchor, offset));
-    gpu_program_set_texture(program, "u_shadow_map", &s->map);
+    gpu_program_set_texture(program, "u_shadow_map", &s->maps[s->current]);
 }

@@ -17,9 +17,12 @@ struct terrain_shadow {
     struct projection projection;
     struct vec3 sun; // for which it was made
     double power, extent;
-    struct gpu_program programs[SURFACE_MAX_LAYERS + 1]; // by the elevation layers in reach
-    struct gpu_texture map; // R = altitude, m; G = half of the penumbra's height, m
-    struct gpu_target target;
+    struct gpu_program heights[SURFACE_MAX_LAYERS + 1]; // by the elevation layers in reach
+    struct gpu_program spread;
+    // R = altitude, m; G = distance to what casts it, m. The two are drawn from one another.
+    struct gpu_texture maps[2];
+    struct gpu_target targets[2];
+    int current; // the finished one
 };
 
 // TRL_ERROR_GPU; TRL_ERROR_MEMORY. Must not outlive the surface.

@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// What rasters become: altitudes on the CPU, bounds, the sea, gaps, poles, errors, pictures.
+#include "fixture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double DEGREE = 3.14159265358979323846 / 180;
+static const struct raster_place GLOBE = {-180, 90, 1, 360, 180};
+static const struct raster_place INSET = {10, 50, 0.1, 100, 100};
+
+static double smooth_height(double latitude, double longitude)
+{
+    return 1000 * cos(latitude * DEGREE) * cos(longitude * DEGREE);
+}
+
+static double noisy_height(double latitude, double longitude)
+{
+    return 500 + 400 * sin(latitude * 91) * cos(longitude * 57);
+}
+
+static double inset_height(double latitude, double longitude)
+{
+    const double to_middle = hypot(latitude - 45, longitude - 15);
+    return to_middle < 1 ? NAN : 3000;
+}
+
+static double west_is_water(double latitude, double longitude)
+{
+    (void)latitude;
+    return longitude < 0 ? 255 : 0;
+}
+
+static double grey(double latitude, double longitude)
+{
+    (void)latitude;
+    (void)longitude;
+    return 188;
+}
+
+static double altitude(const struct surface *s, double latitude, double longitude)
+{
+    return surface_altitude(s, vec3_from_lat_lon(latitude * DEGREE, longitude * DEGREE));
+}
+
+static struct surface_desc describe(const struct surface_layer_desc *layers, size_t count)
+{
+    struct surface_desc desc = surface_desc_default();
+    desc.radius_m = 6.4e6;
+    desc.layers = layers;
+    desc.layer_count = count;
+    return desc;
+}
+
+static void test_altitude_follows_scale_and_offset(void **state)
+{
+    struct fixture *f = *state;
+    char path[128];
+    fixture_write_heights(f, "smooth", &GLOBE, smooth_height, path);
+    const struct surface_layer_desc layer = {
+        .kind = SURFACE_ELEVATION, .path = path, .scale = 2, .offset_m = 100};
+    const struct surface_desc desc = describe(&layer, 1);
+    struct surface s;
+    assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
+    for (int i = 0; i < 500; i++) {
+        const double latitude = -85 + i * 0.34;
+        const double longitude = -180 + fmod(i * 77.7, 360);
+        // Stored as whole units of 2 m, smoothed by the cubic: 1/18 of the bend each way,
+        // 2000 m (1 degree)^2 = 0.6 m.
+        assert_close(altitude(&s, latitude, longitude),
+                     100 + 2 * smooth_height(latitude, longitude), 2);
+    }
+    surface_finish(&s);
+}
+
+static void test_poles_have_one_height_and_the_antimeridian_no_step(void **state)
+{
+    struct fixture *f = *state;
+    char path[128];
+    fixture_write_heights(f, "noisy", &GLOBE, noisy_height, path);
+    const struct surface_layer_desc layer = {.kind = SURFACE_ELEVATION, .path = path, .scale = 1};
+    const struct surface_desc desc = describe(&layer, 1);
+    struct surface s;
+    assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
+    for (int i = 0; i < 36; i++) {
+        // The last row is level; only the rows over it, across the pole, mix in: rounding to 1 m.
+        assert_close(altitude(&s, 89.99999, i * 10), altitude(&s, 89.99999, 0), 2);
+        assert_close(altitude(&s, -89.99999, i * 10), altitude(&s, -89.99999, 0), 2);
+        const double latitude = -85 + i * 4.7;
+        // 2e-6 degrees apart on slopes of some 100 m a degree.
+        assert_close(altitude(&s, latitude, 179.999999), altitude(&s, latitude, -179.999999), 1e-2);
+    }
+    surface_finish(&s);
+}
+
+static void test_insets_lie_over_and_their_gaps_show_what_is_below(void **state)
+{
+    struct fixture *f = *state;
+    char globe[128];
+    char inset[128];
+    fixture_write_heights(f, "smooth", &GLOBE, smooth_height, globe);
+    fixture_write_heights(f, "inset", &INSET, inset_height, inset);
+    const struct surface_layer_desc layers[2] = {
+        {.kind = SURFACE_ELEVATION, .path = globe, .scale = 1},
+        {.kind = SURFACE_ELEVATION, .path = inset, .scale = 1, .feather_rad = 2 * DEGREE}};
+    const struct surface_desc desc = describe(layers, 2);
+    struct surface s;
+    assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
+    assert_close(altitude(&s, 47.5, 15), 3000, 1e-6);
+    // Rounded to a metre in the layer below.
+    assert_close(altitude(&s, 45, 15), smooth_height(45, 15), 1.5);
+    assert_close(altitude(&s, 45, 9.99), smooth_height(45, 9.99), 1.5);
+    assert_close(altitude(&s, 45, 10.01), smooth_height(45, 10), 2);
+    // Half way through the feather, half of each.
+    assert_close(altitude(&s, 44, 11), (3000 + smooth_height(44, 11)) / 2, 2);
+    surface_finish(&s);
+}
+
+static void test_bounds_hold_every_altitude(void **state)
+{
+    struct fixture *f = *state;
+    char globe[128];
+    char inset[128];
+    fixture_write_heights(f, "noisy", &GLOBE, noisy_height, globe);
+    fixture_write_heights(f, "inset", &INSET, inset_height, inset);
+    const struct surface_layer_desc layers[2] = {
+        {.kind = SURFACE_ELEVATION, .path = globe, .scale = 1},
+        {.kind = SURFACE_ELEVATION, .path = inset, .scale = 1}};
+    const struct surface_desc desc = describe(layers, 2);
+    struct surface s;
+    assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
+    srand(3);
+    for (int i = 0; i < 5000; i++) {
+        const double latitude = asin(2.0 * rand() / RAND_MAX - 1) / DEGREE;
+        const double longitude = 360.0 * rand() / RAND_MAX - 180;
+        const struct vec3 at = vec3_from_lat_lon(latitude * DEGREE, longitude * DEGREE);
+        const double angle = 0.2 * rand() / RAND_MAX;
+        const struct surface_bounds b = surface_bounds_around(&s, at, angle);
+        const double north = fmin(latitude + angle / DEGREE, 90);
+        assert_true((double)b.min <= altitude(&s, latitude, longitude));
+        assert_true((double)b.max >= altitude(&s, latitude, longitude));
+        assert_true((double)b.max >= altitude(&s, north, longitude));
+        assert_true((double)b.min >= surface_min_altitude(&s));
+        assert_true((double)b.max <= surface_max_altitude(&s));
+    }
+    // They are of use: the inset's mountains are not everywhere.
+    assert_true(surface_max_altitude(&s) >= 3000);
+    const struct vec3 away = vec3_from_lat_lon(-30 * DEGREE, -100 * DEGREE);
+    assert_true(surface_bounds_around(&s, away, 0.1).max < 1500);
+    surface_finish(&s);
+}
+
+static void test_water_is_level_and_dry_land_may_be_low(void **state)
+{
+    struct fixture *f = *state;
+    char globe[128];
+    char mask[128];
+    fixture_write_heights(f, "smooth", &GLOBE, smooth_height, globe);
+    fixture_write_bytes(f, "mask", &GLOBE, west_is_water, mask);
+    // Water may come after the heights that it levels.
+    const struct surface_layer_desc layers[2] = {
+        {.kind = SURFACE_ELEVATION, .path = globe, .scale = 1},
+        {.kind = SURFACE_WATER, .path = mask}};
+    const struct surface_desc desc = describe(layers, 2);
+    struct surface s;
+    assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
+    assert_close(altitude(&s, 10, -120), 0, 1e-9);
+    assert_close(altitude(&s, 10, -30), smooth_height(10, -30), 1.5); // a lake stays up
+    assert_close(altitude(&s, 10, 120), smooth_height(10, 120), 1.5); // and low land low
+    surface_finish(&s);
+}
+
+static void expect_failure(struct fixture *f, const struct surface_desc *desc, trl_result wanted,
+                           const char *said)
+{
+    struct surface s;
+    f->last_error[0] = 0;
+    assert_int_equal(surface_init(f->gpu, desc, &s), wanted);
+    assert_non_null(strstr(f->last_error, said));
+    assert_false(surface_has_layers(&s));
+}
+
+static void test_errors_name_the_file(void **state)
+{
+    struct fixture *f = *state;
+    char path[128];
+    fixture_write_heights(f, "smooth", &GLOBE, smooth_height, path);
+    struct surface_layer_desc layer = {.kind = SURFACE_ELEVATION, .path = path, .scale = 1};
+    struct surface_desc desc = describe(&layer, 1);
+    desc.max_bytes = 1000;
+    expect_failure(f, &desc, TRL_ERROR_INVALID, "smooth.tif");
+    desc.max_bytes = 1e9;
+    layer.scale = 0;
+    expect_failure(f, &desc, TRL_ERROR_INVALID, "smooth.tif");
+    layer.path = "/nonexistent/nowhere.tif";
+    layer.scale = 1;
+    expect_failure(f, &desc, TRL_ERROR_IO, "nowhere.tif");
+    struct surface_layer_desc many[SURFACE_MAX_LAYERS + 1];
+    for (size_t i = 0; i <= SURFACE_MAX_LAYERS; i++) {
+        many[i] = (struct surface_layer_desc){SURFACE_ELEVATION, path, false, 1, 0, 0};
+    }
+    desc = describe(many, SURFACE_MAX_LAYERS + 1);
+    expect_failure(f, &desc, TRL_ERROR_INVALID, "elevation layers");
+}
+
+static void test_a_missing_optional_layer_is_passed_over(void **state)
+{
+    struct fixture *f = *state;
+    const struct surface_layer_desc layer = {
+        .kind = SURFACE_LIGHTS, .path = "/nonexistent/lights.tif", .is_optional = true};
+    const struct surface_desc desc = describe(&layer, 1);
+    struct surface s;
+    assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
+    assert_false(surface_has_layers(&s));
+    assert_close(altitude(&s, 10, 20), 0, 0);
+    surface_finish(&s);
+}
+
+// Pixels of the three surface targets at the picture's middle.
+struct composed {
+    uint8_t albedo_water[4], lights[4];
+    float normal_sun[4];
+};
+
+static struct composed compose_middle(struct fixture *f, const struct surface *s,
+                                      const struct camera *camera)
+{
+    struct mesher *mesher;
+    struct terrain_shadow shadow;
+    struct terrain_compose compose;
+    struct picture picture;
+    struct gpu_texture colors[3];
+    static const enum gpu_format FORMATS[3] = {GPU_FORMAT_RGBA8, GPU_FORMAT_RGBA32F,
+                                               GPU_FORMAT_RGBA8};
+    assert_int_equal(mesher_create(s, MESHER_HEMISPHERE, &mesher), TRL_OK);
+    assert_int_equal(terrain_shadow_init(s, 0.0047, &shadow), TRL_OK);
+    assert_int_equal(terrain_compose_init(s, &compose), TRL_OK);
+    fixture_picture_init(f, &picture);
+    struct gpu_target_desc target_desc = {.color_count = 3};
+    for (int i = 0; i < 3; i++) {
+        struct gpu_texture_desc desc = gpu_texture_desc_default();
+        desc.width = desc.height = PICTURE_SIDE;
+        desc.filter = GPU_FILTER_NEAREST;
+        desc.format = FORMATS[i];
+        assert_int_equal(gpu_texture_init(f->gpu, &desc, &colors[i]), TRL_OK);
+        target_desc.colors[i].texture = &colors[i];
+    }
+    struct gpu_target target;
+    assert_int_equal(gpu_target_init(f->gpu, &target_desc, &target), TRL_OK);
+    fixture_picture_draw(&picture, mesher, camera);
+    assert_int_equal(terrain_shadow_update(&shadow, camera), TRL_OK);
+    const struct terrain_compose_inputs inputs = {camera, &picture.position, &shadow};
+    assert_int_equal(terrain_compose_draw(&compose, &inputs, &target), TRL_OK);
+    struct composed c;
+    const struct gpu_region middle = {0, PICTURE_SIDE / 2, PICTURE_SIDE / 2, 0, 1, 1, 1};
+    assert_int_equal(gpu_texture_read(&colors[0], &middle, c.albedo_water), TRL_OK);
+    assert_int_equal(gpu_texture_read(&colors[1], &middle, c.normal_sun), TRL_OK);
+    assert_int_equal(gpu_texture_read(&colors[2], &middle, c.lights), TRL_OK);
+    gpu_target_finish(&target);
+    for (int i = 0; i < 3; i++) {
+        gpu_texture_finish(&colors[i]);
+    }
+    fixture_picture_finish(f, &picture);
+    terrain_compose_finish(&compose);
+    terrain_shadow_finish(&shadow);
+    mesher_destroy(&mesher);
+    return c;
+}
+
+static void test_pixels_hold_colour_water_normal_and_lights(void **state)
+{
+    struct fixture *f = *state;
+    char paths[4][128];
+    fixture_write_heights(f, "smooth", &GLOBE, smooth_height, paths[0]);
+    fixture_write_bytes(f, "mask", &GLOBE, west_is_water, paths[1]);
+    fixture_write_bytes(f, "grey", &GLOBE, grey, paths[2]);
+    const struct surface_layer_desc layers[4] = {
+        {.kind = SURFACE_ELEVATION, .path = paths[0], .scale = 50},
+        {.kind = SURFACE_WATER, .path = paths[1]},
+        {.kind = SURFACE_COLOUR, .path = paths[2]},
+        {.kind = SURFACE_LIGHTS, .path = paths[1]}};
+    struct surface_desc desc = describe(layers, 4);
+    struct surface s;
+    assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
+    const struct camera_place place = {.latitude = 30,
+                                       .longitude = -40,
+                                       .radius_m = desc.radius_m,
+                                       .altitude_m = 1e5,
+                                       .pitch = -90,
+                                       .fov = 20};
+    const struct camera camera = fixture_camera(&place);
+    const struct composed c = compose_middle(f, &s, &camera);
+    for (int i = 0; i < 3; i++) {
+        // sRGB 188 is linear 0.503, whose root is 0.709: one step of rounding.
+        assert_in_range(c.albedo_water[i], 180, 182);
+        assert_int_equal(c.lights[i], 255);
+    }
+    assert_int_equal(c.albedo_water[3], 255);
+    // h = 50 * 1000 cos(latitude) cos(longitude) = 50 km times the direction's x. Its slope at the
+    // pixel: the part of 50 km * x-axis that is tangent, over the radius.
+    const struct vec3 up = vec3_normalize(camera.position_m);
+    const struct vec3 x = {50000, 0, 0};
+    const struct vec3 gradient =
+        vec3_scale(vec3_sub(x, vec3_scale(up, vec3_dot(up, x))), 1 / desc.radius_m);
+    const struct vec3 n = vec3_normalize(vec3_sub(up, gradient));
+    // Heights in whole units of 50 m over a degree (112 km): 5e-4 of slope.
+    assert_close((double)c.normal_sun[0], n.x, 1e-3);
+    assert_close((double)c.normal_sun[1], n.y, 1e-3);
+    assert_close((double)c.normal_sun[2], n.z, 1e-3);
+    assert_close((double)c.normal_sun[3], 1, 1e-6);
+    surface_finish(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_altitude_follows_scale_and_offset),
+        cmocka_unit_test(test_poles_have_one_height_and_the_antimeridian_no_step),
+        cmocka_unit_test(test_insets_lie_over_and_their_gaps_show_what_is_below),
+        cmocka_unit_test(test_bounds_hold_every_altitude),
+        cmocka_unit_test(test_water_is_level_and_dry_land_may_be_low),
+        cmocka_unit_test(test_errors_name_the_file),
+        cmocka_unit_test(test_a_missing_optional_layer_is_passed_over),
+        cmocka_unit_test(test_pixels_hold_colour_water_normal_and_lights),
+    };
+    return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
+}
