@@ -23,7 +23,7 @@ setup: ## installs the packages that are missing (root or sudo)
 build: setup ## builds the program: build/terrella
 	@tools/build.sh $(BUILD)
 	@mkdir -p "$$MESA_SHADER_CACHE_DIR"
-	@ln -sfn release/apps/cli/terrella $(TERRELLA)
+	@ln -sfn release/terrella $(TERRELLA)
 
 data: build ## fetches Earth's data into the cache and says where it is
 	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
