@@ -28,7 +28,8 @@ static const char scene_format[] =
     " \"star\": {\"spectral_irradiance\": 1.5, \"angular_radius_deg\": 0.27},"
     " \"planet\": {\"radius_m\": 6371000, \"ground_albedo\": 0.3},"
     " \"atmosphere\": {\"height_m\": 60000, \"constituents\": [{\"name\": \"air\","
-    "  \"scattering_per_m\": 1e-6, \"profile\": {\"exponential\": {\"scale_height_m\": 8000}},"
+    "  \"scattering_per_m\": {\"power_law\": {\"at_nm\": 550, \"value\": 1e-6,"
+    "   \"exponent\": -4}}, \"profile\": {\"exponential\": {\"scale_height_m\": 8000}},"
     "  \"phase\": \"rayleigh\"}]},"
     " \"surface\": {\"layers\": [{\"elevation\": \"relief.png\", \"scale\": 30},"
     "  {\"colour\": \"%s\", \"optional\": %s}]}}";
@@ -48,7 +49,6 @@ static trl_result create(struct fixture *f, const trl_scene *scene, trl_renderer
 {
     trl_renderer_desc desc = trl_renderer_desc_default();
     desc.scene = scene;
-    desc.wavelengths = 4;
     return trl_renderer_create(f->ctx, &desc, out);
 }
 
@@ -149,12 +149,13 @@ static void look_down(const struct setup *s, double latitude_rad, double mean[3]
 
 static void colours_are_those_of_the_raster(void **state)
 {
-    // sRGB 200 is 0.58 of the light, 20 is 0.007; thin air adds little to either.
+    // sRGB 200 is 0.58 of the light, 20 is 0.007. Thin air adds a hundredth or two, and the few
+    // wavelengths of the pictures let a tenth of such a saturated colour cross over.
     double north[3], south[3];
     look_down(*state, 0.8, north);
     look_down(*state, -0.8, south);
-    assert_true(north[1] > 8 * north[0] && north[1] > 8 * north[2]);
-    assert_true(south[0] > 8 * south[1] && south[0] > 8 * south[2]);
+    assert_true(north[1] > 5 * north[0] && north[1] > 5 * north[2]);
+    assert_true(south[0] > 5 * south[1] && south[0] > 5 * south[2]);
 }
 
 static void a_missing_raster_is_one_line_unless_it_is_optional(void **state)
