@@ -5,13 +5,14 @@
 usage: embed_test.py EMBED
 """
 
+import os
 import subprocess
 import sys
 import unittest
 
 from process import ProgramTest, count_values, read_png, require_gl
 
-EMBED = sys.argv.pop()
+EMBED = os.path.abspath(sys.argv.pop())
 
 
 class Embed(ProgramTest):
