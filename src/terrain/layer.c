@@ -199,8 +199,7 @@ trl_result layer_read_heights(const struct raster *raster, const struct layer_fi
     return level_poles(layer);
 }
 
-static struct gpu_texture_desc describe_texture(const struct gpu *gpu,
-                                                const struct layer_frame *frame)
+static struct gpu_texture_desc describe_texture(const struct layer_frame *frame)
 {
     struct gpu_texture_desc desc = gpu_texture_desc_default();
     desc.width = frame->width;
@@ -209,7 +208,6 @@ static struct gpu_texture_desc describe_texture(const struct gpu *gpu,
     desc.filter = GPU_FILTER_TRILINEAR;
     desc.wrap_x = frame->is_whole_circle ? GPU_WRAP_REPEAT : GPU_WRAP_CLAMP;
     desc.anisotropy = 1;
-    (void)gpu;
     return desc;
 }
 
@@ -231,9 +229,50 @@ static void convert_strip(const struct terrain_layer *layer, uint32_t row, uint3
     }
 }
 
+// The mean of 2 x 2 texels of the level above; `from` is NULL for the heights themselves.
+static void halve_level(const struct terrain_layer *layer, const float *from, uint32_t level,
+                        float *to)
+{
+    const uint32_t across = layer->frame.width >> (level - 1);
+    const uint32_t down = layer->frame.height >> (level - 1);
+    const uint32_t from_width = across > 0 ? across : 1;
+    const uint32_t from_height = down > 0 ? down : 1;
+    const uint32_t width = from_width > 1 ? from_width / 2 : 1;
+    const uint32_t height = from_height > 1 ? from_height / 2 : 1;
+    for (uint32_t y = 0; y < height; y++) {
+        for (uint32_t x = 0; x < width; x++) {
+            double sum = 0;
+            for (uint32_t k = 0; k < 4; k++) {
+                const uint32_t column = 2 * x + k % 2 < from_width ? 2 * x + k % 2 : from_width - 1;
+                const uint32_t row = 2 * y + k / 2 < from_height ? 2 * y + k / 2 : from_height - 1;
+                sum += from ? (double)from[(size_t)row * from_width + column]
+                            : layer_texel(layer, column, row);
+            }
+            to[(size_t)y * width + x] = (float)(sum / 4);
+        }
+    }
+}
+
+// Where the GPU does not filter 32-bit floats it makes no mips of them either.
+static trl_result upload_own_mips(struct terrain_layer *layer)
+{
+    const size_t count = ((size_t)layer->frame.width / 2 + 1) * (layer->frame.height / 2 + 1);
+    float *levels[2] = {mem_alloc(layer->ctx, count, sizeof(float)),
+                        mem_alloc(layer->ctx, count, sizeof(float))};
+    trl_result result = levels[0] && levels[1] ? TRL_OK : TRL_ERROR_MEMORY;
+    for (uint32_t i = 1; i < layer->texture.levels && result == TRL_OK; i++) {
+        halve_level(layer, i == 1 ? NULL : levels[(i - 1) % 2], i, levels[i % 2]);
+        const struct gpu_region all = gpu_texture_region(&layer->texture, i);
+        result = gpu_texture_upload(&layer->texture, &all, levels[i % 2]);
+    }
+    mem_free(layer->ctx, levels[0]);
+    mem_free(layer->ctx, levels[1]);
+    return result;
+}
+
 trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer)
 {
-    struct gpu_texture_desc desc = describe_texture(gpu, &layer->frame);
+    struct gpu_texture_desc desc = describe_texture(&layer->frame);
     desc.label = "elevation";
     desc.format = GPU_FORMAT_R32F;
     if (!gpu->caps.has_float_linear) {
@@ -249,7 +288,11 @@ trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer)
         result = gpu_texture_upload(&layer->texture, &region, strip);
     }
     mem_free(layer->ctx, strip);
-    return result == TRL_OK ? gpu_texture_make_mips(&layer->texture) : result;
+    if (result != TRL_OK) {
+        return result;
+    }
+    return gpu->caps.has_float_linear ? gpu_texture_make_mips(&layer->texture)
+                                      : upload_own_mips(layer);
 }
 
 // sRGB byte to the square root of its linear value: filtered as it is, it wastes no steps on dark
@@ -266,7 +309,7 @@ static void make_root_table(uint8_t table[256])
 static trl_result upload_bytes(struct gpu *gpu, enum gpu_format format, const uint8_t *bytes,
                                struct terrain_layer *layer)
 {
-    struct gpu_texture_desc desc = describe_texture(gpu, &layer->frame);
+    struct gpu_texture_desc desc = describe_texture(&layer->frame);
     desc.label = format == GPU_FORMAT_R8 ? "mask" : "picture";
     desc.format = format;
     desc.data = bytes;
