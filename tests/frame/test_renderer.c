@@ -340,7 +340,7 @@ static void running_out_of_memory_is_a_result_and_leaks_nothing(void **state)
     assert_int_equal(create_with(*state, &rich), TRL_OK);
     assert_int_equal(rich.live, 0);
     const int needed = 1000000 - rich.left;
-    const int step = needed / 10 + 1; // ten of the places where it may happen
+    const int step = needed / 6 + 1; // six of the places where it may happen
     for (int left = 0; left < needed; left += step) {
         struct purse purse = {.left = left};
         assert_int_equal(create_with(*state, &purse), TRL_ERROR_MEMORY);
