@@ -142,7 +142,7 @@ class Cache(ProgramTest):
 
     def test_broken_tables_are_made_again(self):
         scene = self.write_scene()
-        self.environment["TERRELLA_CACHE"] = ""
+        self.environment["TERRELLA_CACHE"] = str(self.folder / "other")
         fresh, _ = self.draw(scene, "fresh.exr")
         self.environment["TERRELLA_CACHE"] = str(self.cache)
         self.assertEqual(self.draw(scene, "filled.exr")[0], fresh)
