@@ -24,8 +24,10 @@ enum {
     CHUNKS = CHUNK_ROW * CHUNK_ROW
 };
 static const double RING_AT_NEAR = 30; // see projection.near_m
-// Above this part of the radius, the whole cap is seen at once and every other vertex is enough.
-static const double COARSE_FROM_RADIUS = 0.05;
+// The higher the camera, the more of the grid is in view at once, and the smaller it is there:
+// above these parts of the radius every second and every fourth vertex is enough.
+enum { MESHES = 3 };
+static const double COARSER_ABOVE[MESHES] = {0, 0.05, 0.5};
 
 // What must be in view for a chunk to be drawn.
 struct chunk {
@@ -42,13 +44,13 @@ struct hemisphere {
     const struct surface *surface;
     struct projection projection;
     double power;
-    bool is_coarse;
+    uint32_t level; // of `meshes`
     struct camera camera;
     struct chunk chunks[CHUNKS];
     struct gpu_texture positions;
     struct gpu_target target;
     struct gpu_program grid_program, mesh_program;
-    struct gpu_mesh fine, coarse;
+    struct gpu_mesh meshes[MESHES]; // of every vertex, every second, every fourth
 };
 
 static void put_cell(uint32_t *indices, uint32_t x, uint32_t y, uint32_t step)
@@ -197,7 +199,11 @@ static trl_result update(struct mesher *base, const struct camera *camera)
     const double apex = 1 + h->projection.lift;
     const double near = h->projection.near_m / h->surface->radius_m * fmax(apex, 0.1);
     h->power = projection_power(near, RING_AT_NEAR, CELLS / 2.0);
-    h->is_coarse = h->projection.height_m > COARSE_FROM_RADIUS * h->surface->radius_m;
+    h->level = 0;
+    while (h->level + 1 < MESHES &&
+           h->projection.height_m > COARSER_ABOVE[h->level + 1] * h->surface->radius_m) {
+        h->level++;
+    }
     for (uint32_t i = 0; i < CHUNKS; i++) {
         place_chunk(h, i);
     }
@@ -257,8 +263,8 @@ static bool is_visible(const struct hemisphere *h, uint32_t chunk)
 
 static trl_result draw_run(struct hemisphere *h, uint32_t first, uint32_t count)
 {
-    const struct gpu_mesh *mesh = h->is_coarse ? &h->coarse : &h->fine;
-    const uint32_t size = chunk_indices(h->is_coarse ? 2 : 1);
+    const struct gpu_mesh *mesh = &h->meshes[h->level];
+    const uint32_t size = chunk_indices(1u << h->level);
     const struct gpu_draw_range range = {first * size, count * size, 1};
     h->base.stats.triangles += range.count / 3;
     h->base.stats.chunks += count;
@@ -294,8 +300,9 @@ static trl_result draw(struct mesher *base, const struct gpu_target *target)
 static void destroy(struct mesher *base)
 {
     struct hemisphere *h = (struct hemisphere *)base;
-    gpu_mesh_finish(&h->fine);
-    gpu_mesh_finish(&h->coarse);
+    for (int i = 0; i < MESHES; i++) {
+        gpu_mesh_finish(&h->meshes[i]);
+    }
     gpu_program_finish(&h->grid_program);
     gpu_program_finish(&h->mesh_program);
     gpu_target_finish(&h->target);
@@ -316,8 +323,9 @@ trl_result hemisphere_create(const struct surface *surface, struct mesher **out)
     h->surface = surface;
     trl_result result = make_target(h);
     result = result == TRL_OK ? make_programs(h) : result;
-    result = result == TRL_OK ? make_mesh(h, 1, &h->fine) : result;
-    result = result == TRL_OK ? make_mesh(h, 2, &h->coarse) : result;
+    for (uint32_t i = 0; i < MESHES && result == TRL_OK; i++) {
+        result = make_mesh(h, 1u << i, &h->meshes[i]);
+    }
     if (result != TRL_OK) {
         destroy(&h->base);
         return result;

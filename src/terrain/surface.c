@@ -162,6 +162,15 @@ static trl_result load_elevation(struct loader *loader, const struct surface_lay
     return result;
 }
 
+static size_t count_layers(const struct surface *surface)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
+        count += surface->counts[k];
+    }
+    return count;
+}
+
 static trl_result load_layer(struct loader *loader, const struct surface_layer_desc *desc)
 {
     struct surface *s = loader->surface;
@@ -171,6 +180,11 @@ static trl_result load_layer(struct loader *loader, const struct surface_layer_d
         return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
                         "%s: %d %s layers are all that can be shown", desc->path,
                         SURFACE_MAX_LAYERS, KIND_NAMES[desc->kind]);
+    }
+    if (count_layers(s) == SURFACE_MAX_ALL_LAYERS) {
+        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: %d layers are all that can be shown", desc->path,
+                        SURFACE_MAX_ALL_LAYERS);
     }
     struct raster raster;
     trl_result result = raster_open(ctx, desc->path, &raster);
@@ -358,11 +372,7 @@ void surface_finish(struct surface *surface)
 
 bool surface_has_layers(const struct surface *surface)
 {
-    size_t count = 0;
-    for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
-        count += surface->counts[k];
-    }
-    return count > 0;
+    return count_layers(surface) > 0;
 }
 
 double surface_altitude(const struct surface *surface, struct vec3 direction)

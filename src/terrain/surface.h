@@ -19,8 +19,8 @@ enum surface_kind {
     SURFACE_KIND_COUNT
 };
 
-// Samplers that a fragment shader surely has are 16; these leave some to the passes.
-enum { SURFACE_MAX_LAYERS = 4 }; // of each kind
+// Of each kind, and together: a fragment shader surely has 16 samplers, and two are taken.
+enum { SURFACE_MAX_LAYERS = 4, SURFACE_MAX_ALL_LAYERS = 14 };
 
 struct surface_layer_desc {
     enum surface_kind kind;
