@@ -145,7 +145,8 @@ vec4 sky_radiance(Ray ray)
     float shortest = outside ? 0.0 : u_planet.y - u_eye.y;
     float longest = (outside ? u_planet.z : rise) + u_planet.z;
     float view = sky_map_view(way, shortest, longest);
-    float sun = sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w);
+    // Inside, the slice has one sun.
+    float sun = outside ? sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w) : 0.0;
     vec3 at = vec3(centre(azimuth_coordinate(mu, sun_mu, ray.nu), u_slice_size.x),
                    centre(sun, u_slice_size.y), centre(view, u_slice_size.z));
     vec4 radiance = join_slice(at, ray.nu);

@@ -57,6 +57,11 @@ void table_finish(const trl_context *ctx, struct table *table);
 void table_slice(const struct table *table, const struct optics *optics, int channel,
                  double radius_m, float *texels);
 
+// The same at one sun: [view][azimuth][BAND_COUNT]. Between suns the logarithm is interpolated,
+// since twilight falls by a factor from sun to sun.
+void table_slice_at_sun(const struct table *table, const struct optics *optics, int channel,
+                        double radius_m, double sun_mu, float *texels);
+
 // Adds the spectra of a coarse choice of rays, of direct light, and of plain slopes to the fit of
 // the bands.
 TRL_MUST_USE trl_result table_sample_spectra(const trl_context *ctx,

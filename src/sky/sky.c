@@ -147,16 +147,31 @@ static double eye_radius(const struct sky *sky, const struct camera *camera)
                 sky->atmosphere->optics->ground_radius_m + AERIAL_MIN_ALTITUDE_M);
 }
 
-static trl_result update_slices(struct sky *sky, double radius_m)
+// From inside the air all rays start under one sun, so the slice has one; from outside each ray
+// enters the air under its own.
+static trl_result update_slices(struct sky *sky, double radius_m, double sun_mu)
 {
     const struct atmosphere *a = sky->atmosphere;
-    const double at_m = fmin(radius_m, a->optics->top_radius_m);
+    const bool is_outside = radius_m > a->optics->top_radius_m;
+    const double at_m = is_outside ? a->optics->top_radius_m : radius_m;
+    if (sky->slice_radius_m == at_m &&
+        (is_outside ? isnan(sky->slice_sun_mu) : sky->slice_sun_mu == sun_mu)) {
+        return TRL_OK;
+    }
     trl_result result = TRL_OK;
-    for (int c = 0; c < a->table.channels && result == TRL_OK && sky->slice_radius_m != at_m; c++) {
-        table_slice(&a->table, a->optics, c, at_m, sky->texels);
-        result = upload(&sky->slice[c], sky->texels);
+    for (int c = 0; c < a->table.channels && result == TRL_OK; c++) {
+        struct gpu_region region = gpu_texture_region(&sky->slice[c], 0);
+        if (is_outside) {
+            table_slice(&a->table, a->optics, c, at_m, sky->texels);
+        } else {
+            table_slice_at_sun(&a->table, a->optics, c, at_m, sun_mu, sky->texels);
+            region.height = 1;
+        }
+        result = gpu_texture_upload(&sky->slice[c], &region, sky->texels);
     }
     sky->slice_radius_m = result == TRL_OK ? at_m : 0;
+    // Seen from inside at the very top and then from outside is not the same slice.
+    sky->slice_sun_mu = is_outside ? (double)NAN : sun_mu;
     return result;
 }
 
@@ -205,7 +220,7 @@ trl_result sky_prepare(struct sky *sky, const struct camera *camera, double high
 {
     const double radius_m = eye_radius(sky, camera);
     const double sun_mu = vec3_dot(vec3_normalize(camera->position_m), camera->sun_direction);
-    trl_result result = update_slices(sky, radius_m);
+    trl_result result = update_slices(sky, radius_m, sun_mu);
     if (result == TRL_OK) {
         result = update_aerial(sky, radius_m, sun_mu);
     }

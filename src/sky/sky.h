@@ -5,7 +5,8 @@
 // The sky pass: for every pixel either lit ground behind air, or sky with the star's disc.
 //
 //     in   surface buffers (frame/ground.h), or none for a bare sphere
-//     in   sky        3D RGBA32F  azimuth x sun x view, a slice of the 4D table at the eye's
+//     in   slice      3D RGBA32F  azimuth x sun x view, the 4D table at the eye's altitude; inside the air
+//                                 only the first sun is there, the eye's own
 //     altitude in   aerial     3D RGBA32F  depth x azimuth x row, in-scattered radiance per metre
 //     in   extinction 2D RGBA32F  depth x row, per metre
 //     in   sunlight   2D RGBA32F  sun x altitude, direct light
@@ -33,6 +34,7 @@ struct sky {
     struct gpu_texture extinction, sunlight, skylight, phase;
     float *texels;         // scratch of one slice
     double slice_radius_m; // what the slice was made for; 0: nothing yet
+    double slice_sun_mu;   // NAN: all suns
     double aerial_radius_m, aerial_sun_mu;
     double highest_m; // altitude up to which light of the ground is tabulated
 };
