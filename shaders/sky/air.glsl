@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// The air between the eye and what a pixel shows. Lengths in m. Radiance in four bands per unit
-// irradiance of the star (sr^-1). No planet-sized floats are subtracted: heights come separately.
+// The air between the eye and what a pixel shows. Lengths in m. Light that the air adds is CIE 1931
+// XYZ in cd m^-2; what it leaves of light behind it is in four bands. No planet-sized floats are
+// subtracted: heights come separately.
 #ifndef SKY_AIR_GLSL
 #define SKY_AIR_GLSL
 
@@ -98,41 +99,41 @@ vec4 peaked_phase(float nu)
 }
 #endif
 
-vec4 join_slice(vec3 at, float nu)
+vec3 join_slice(vec3 at, float nu)
 {
-    vec4 sum = textureLod(u_slice0, at, 0.0) * phase_rayleigh(nu);
+    vec3 sum = exp(textureLod(u_slice0, at, 0.0).xyz) * phase_rayleigh(nu);
 #if PEAKED_COUNT > 0
     vec4 phase = peaked_phase(nu);
-    sum += textureLod(u_slice1, at, 0.0) * phase.x;
+    sum += exp(textureLod(u_slice1, at, 0.0).xyz) * phase.x;
 #endif
 #if PEAKED_COUNT > 1
-    sum += textureLod(u_slice2, at, 0.0) * phase.y;
+    sum += exp(textureLod(u_slice2, at, 0.0).xyz) * phase.y;
 #endif
 #if PEAKED_COUNT > 2
-    sum += textureLod(u_slice3, at, 0.0) * phase.z;
+    sum += exp(textureLod(u_slice3, at, 0.0).xyz) * phase.z;
 #endif
     return sum;
 }
 
-vec4 join_scattered(vec3 at, float nu)
+vec3 join_scattered(vec3 at, float nu)
 {
-    vec4 sum = textureLod(u_scattered0, at, 0.0) * phase_rayleigh(nu);
+    vec3 sum = exp(textureLod(u_scattered0, at, 0.0).xyz) * phase_rayleigh(nu);
 #if PEAKED_COUNT > 0
     vec4 phase = peaked_phase(nu);
-    sum += textureLod(u_scattered1, at, 0.0) * phase.x;
+    sum += exp(textureLod(u_scattered1, at, 0.0).xyz) * phase.x;
 #endif
 #if PEAKED_COUNT > 1
-    sum += textureLod(u_scattered2, at, 0.0) * phase.y;
+    sum += exp(textureLod(u_scattered2, at, 0.0).xyz) * phase.y;
 #endif
 #if PEAKED_COUNT > 2
-    sum += textureLod(u_scattered3, at, 0.0) * phase.z;
+    sum += exp(textureLod(u_scattered3, at, 0.0).xyz) * phase.z;
 #endif
     return sum;
 }
 
-// Radiance of the whole way through the air of a ray that ends in space. From outside the eye stands
+// Light of the whole way through the air of a ray that ends in space. From outside the eye stands
 // where the ray enters (Elek 2010 Section 5).
-vec4 sky_radiance(Ray ray)
+vec3 sky_light(Ray ray)
 {
     bool outside = u_eye.w > 0.5;
     float top = u_planet.x + u_planet.y;
@@ -149,13 +150,12 @@ vec4 sky_radiance(Ray ray)
     float sun = outside ? sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w) : 0.0;
     vec3 at = vec3(centre(azimuth_coordinate(mu, sun_mu, ray.nu), u_slice_size.x),
                    centre(sun, u_slice_size.y), centre(view, u_slice_size.z));
-    vec4 radiance = join_slice(at, ray.nu);
-    return ray.chord_m > 0.0 ? max(radiance, vec4(0.0)) : vec4(0.0);
+    return ray.chord_m > 0.0 ? join_slice(at, ray.nu) : vec3(0.0);
 }
 
 struct Air {
-    vec4 scattered;     // radiance that the air adds
-    vec4 transmittance; // what it leaves of the light behind it
+    vec3 scattered;     // XYZ that the air adds
+    vec4 transmittance; // what it leaves of the light behind it, in the bands
 };
 
 // The air between the eye and a point at `distance_m` on the ray.
@@ -171,7 +171,7 @@ Air air_before(Ray ray, float distance_m)
                    (row + 0.5) / u_aerial_size.w);
     float way = clamp(distance_m, ray.begin_m, max(ray.end_m * 1.2, distance_m)) - ray.begin_m;
     Air air;
-    air.scattered = max(join_scattered(at, ray.nu), vec4(0.0)) * way;
+    air.scattered = join_scattered(at, ray.nu) * way;
     air.transmittance = exp(-textureLod(u_extinction, at.xz, 0.0) * way);
     return air;
 }

@@ -20,7 +20,8 @@ uniform float u_skylight_suns;
 uniform sampler2D u_sunlight;
 uniform sampler2D u_skylight;
 uniform vec4 u_ground_albedo; // in the bands, of the bare sphere and of the land around
-uniform vec4 u_rgb_from_bands[3];
+uniform vec4 u_rgb_from_bands[3]; // rows
+uniform vec4 u_rgb_from_xyz[3];   // rows, w unused
 
 #ifdef SURFACE
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
@@ -39,7 +40,7 @@ struct Ground {
     vec3 normal;
     vec4 albedo;
     float star_visible;
-    vec4 emitted; // radiance, same units as all
+    vec4 emitted;
 };
 
 // Cosine of the incidence of a disc of sine `s`, part of which may be below the surface's horizon.
@@ -128,13 +129,17 @@ void main()
     Ray ray = make_ray(normalize(u_forward + at.x * u_right + at.y * u_up));
     bool found;
     Ground ground = find_ground(ray, found);
-    vec4 radiance;
+    vec4 bands;
+    vec3 xyz;
     if (found) {
         Air air = air_before(ray, ground.distance_m);
-        radiance = light_ground(ray, ground) * air.transmittance + air.scattered;
+        bands = light_ground(ray, ground) * air.transmittance;
+        xyz = air.scattered;
     } else {
-        radiance = sky_radiance(ray) + star_disc(ray);
+        bands = star_disc(ray);
+        xyz = sky_light(ray);
     }
-    out_radiance = vec4(dot(u_rgb_from_bands[0], radiance), dot(u_rgb_from_bands[1], radiance),
-                        dot(u_rgb_from_bands[2], radiance), 1.0);
+    out_radiance = vec4(dot(u_rgb_from_bands[0], bands) + dot(u_rgb_from_xyz[0].xyz, xyz),
+                        dot(u_rgb_from_bands[1], bands) + dot(u_rgb_from_xyz[1].xyz, xyz),
+                        dot(u_rgb_from_bands[2], bands) + dot(u_rgb_from_xyz[2].xyz, xyz), 1.0);
 }

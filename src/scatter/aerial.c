@@ -95,16 +95,13 @@ static void fill_family(struct aerial_worker *w, double mu, double sun_mu)
 static void store_scattered(struct aerial *a, const struct aerial_worker *w, int row, int depth,
                             double length_m)
 {
-    const struct bands *bands = &a->atmosphere->bands;
     for (int c = 0; c <= a->atmosphere->peaked.count; c++) {
         for (int p = 0; p < AERIAL_AZIMUTHS; p++) {
             float *texel = a->scattered[c] + ((size_t)row * AERIAL_AZIMUTHS + p) * row_floats() +
-                           (size_t)depth * BAND_COUNT;
-            const double scale =
-                c == 0 ? 1 / (length_m * phase_rayleigh((double)w->nu[p])) : 1 / length_m;
-            for (int b = 0; b < BAND_COUNT; b++) {
-                texel[b] = (float)((double)w->radiance[c][p][bands->lane[b]] * scale);
-            }
+                           (size_t)depth * TEXEL_FLOATS;
+            const double phase = c == 0 ? phase_rayleigh((double)w->nu[p]) : 1;
+            bands_xyz(&a->atmosphere->bands, &w->radiance[c][p], (float)(1 / (length_m * phase)),
+                      texel);
         }
     }
 }

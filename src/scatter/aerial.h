@@ -25,7 +25,7 @@ struct aerial {
     double eye_radius_m;
     double nearest_m, farthest_m;           // of the rows on the ground: nadir, horizon
     double horizon_mu, highest_mu;          // of the rows above
-    float *scattered[1 + TABLE_MAX_PEAKED]; // [row][azimuth][depth][BAND_COUNT]
+    float *scattered[1 + TABLE_MAX_PEAKED]; // [row][azimuth][depth][TEXEL_FLOATS]
     float *extinction;                      // [row][depth][BAND_COUNT]
     struct aerial_worker *workers;
     int worker_count;

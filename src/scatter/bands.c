@@ -32,14 +32,19 @@ void band_fit_init(struct band_fit *fit, const struct optics *optics)
         const struct cie_xyz observer = cie_observer_integral(nm, nm + 1);
         const double irradiance = spectrum_at(&optics->medium->star_irradiance, nm + 0.5);
         const double watts = CIE_LUMENS_PER_WATT * irradiance;
-        const struct cie_rgb rgb = cie_rgb_of_xyz(
-            (struct cie_xyz){observer.x * watts, observer.y * watts, observer.z * watts});
         for (int k = 0; k < optics->wavelength_count; k++) {
             const double share = hat(optics, k, nm + 0.5);
-            fit->rgb_from_lanes[0][k] += share * rgb.r;
-            fit->rgb_from_lanes[1][k] += share * rgb.g;
-            fit->rgb_from_lanes[2][k] += share * rgb.b;
+            fit->xyz_from_lanes[0][k] += share * observer.x * watts;
+            fit->xyz_from_lanes[1][k] += share * observer.y * watts;
+            fit->xyz_from_lanes[2][k] += share * observer.z * watts;
         }
+    }
+    for (int k = 0; k < optics->wavelength_count; k++) {
+        const struct cie_rgb rgb = cie_rgb_of_xyz((struct cie_xyz){
+            fit->xyz_from_lanes[0][k], fit->xyz_from_lanes[1][k], fit->xyz_from_lanes[2][k]});
+        fit->rgb_from_lanes[0][k] = rgb.r;
+        fit->rgb_from_lanes[1][k] = rgb.g;
+        fit->rgb_from_lanes[2][k] = rgb.b;
     }
 }
 
@@ -208,6 +213,11 @@ void band_fit_choose(const struct band_fit *fit, struct bands *out)
 {
     *out = (struct bands){.rms_error = INFINITY};
     const int count = fit->optics->wavelength_count;
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < count; i++) {
+            out->xyz_from_lanes[k][i] = (float)fit->xyz_from_lanes[k][i];
+        }
+    }
     double projected[3][LANES] = {{0}}; // W G
     double whole = 0;
     for (int k = 0; k < 3; k++) {
@@ -258,4 +268,16 @@ void band_fit_choose(const struct band_fit *fit, struct bands *out)
     for (int r = 0; r < BAND_COUNT; r++) {
         out->nm[r] = fit->optics->wavelength_nm[out->lane[r]];
     }
+}
+
+void bands_xyz(const struct bands *bands, const lanes *radiance, float scale, float *texel)
+{
+    for (int k = 0; k < 3; k++) {
+        float sum = 0;
+        for (int i = 0; i < LANES; i++) {
+            sum += bands->xyz_from_lanes[k][i] * (*radiance)[i];
+        }
+        texel[k] = sum * scale;
+    }
+    texel[3] = 0;
 }

@@ -12,7 +12,9 @@
 enum { BAND_COUNT = 4 };
 
 struct bands {
-    int lane[BAND_COUNT]; // in the optics, ascending
+    float xyz_from_lanes[3][LANES]; // exact: CIE 1931 in cd m^-2 of radiance per unit irradiance of
+                                    // the star
+    int lane[BAND_COUNT];           // in the optics, ascending
     double nm[BAND_COUNT];
     // Linear sRGB in cd m^-2 of radiance per unit irradiance of the star (sr^-1) in the bands.
     float rgb_from_bands[3][BAND_COUNT];
@@ -24,7 +26,8 @@ struct bands {
 // Collects the spectra that the scene really has, then chooses.
 struct band_fit {
     const struct optics *optics;
-    double rgb_from_lanes[3][LANES]; // the exact matrix, from the star's fine spectrum and CIE 1931
+    double xyz_from_lanes[3][LANES]; // the exact matrix, from the star's fine spectrum and CIE 1931
+    double rgb_from_lanes[3][LANES]; // the same in linear sRGB
     double gram[LANES][LANES];       // weighted products of the spectra seen
 };
 
@@ -34,5 +37,8 @@ void band_fit_init(struct band_fit *fit, const struct optics *optics);
 void band_fit_add(struct band_fit *fit, const lanes *spectrum);
 // Tries every choice of four wavelengths: least squares of each through the Gram matrix.
 void band_fit_choose(const struct band_fit *fit, struct bands *out);
+
+// Colour in cd m^-2 (X, Y, Z, 0) of radiance per unit irradiance of the star, times `scale`.
+void bands_xyz(const struct bands *bands, const lanes *radiance, float scale, float *texel);
 
 #endif // SCATTER_BANDS_H

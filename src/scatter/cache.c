@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { FORMAT_VERSION = 1, SAMPLES = 256, PIECES = 6 };
+enum { FORMAT_VERSION = 2, SAMPLES = 256, PIECES = 6 };
 
 // FNV-1a over words of eight bytes; a last short word is filled with zeros. Not for enemies: it
 // finds accidents.

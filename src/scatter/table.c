@@ -69,7 +69,7 @@ struct table_size table_size_default(void)
 
 static size_t slice_floats(const struct table *t)
 {
-    return (size_t)t->size.views * t->size.suns * t->size.azimuths * BAND_COUNT;
+    return (size_t)t->size.views * t->size.suns * t->size.azimuths * TEXEL_FLOATS;
 }
 
 size_t table_texels(const struct table *t)
@@ -221,13 +221,10 @@ static void store(const struct table *table, const struct transport_family *fami
 {
     for (int c = 0; c < table->channels; c++) {
         float *texel = table->texels + (size_t)c * table->size.altitudes * slice_floats(table) +
-                       ray_index * family->count * BAND_COUNT;
+                       ray_index * family->count * TEXEL_FLOATS;
         for (int t = 0; t < family->count; t++) {
             const double scale = c == 0 ? 1 / phase_rayleigh((double)family->nu[t]) : 1;
-            for (int b = 0; b < BAND_COUNT; b++) {
-                texel[t * BAND_COUNT + b] =
-                    (float)((double)w->radiance[c][t][bands->lane[b]] * scale);
-            }
+            bands_xyz(bands, &w->radiance[c][t], (float)scale, texel + t * TEXEL_FLOATS);
         }
     }
 }
@@ -329,7 +326,7 @@ void table_slice_at_sun(const struct table *table, const struct optics *optics, 
     const struct cell sun = cell_at(
         sky_map_sun(sun_mu, table->sun_centre, table->sun_width, table->sun_first, table->sun_last),
         table->size.suns);
-    const size_t row = (size_t)table->size.azimuths * BAND_COUNT;
+    const size_t row = (size_t)table->size.azimuths * TEXEL_FLOATS;
     const float *a = slice_of(table, channel, altitude.below);
     const float *b = slice_of(table, channel, altitude.below + 1);
     for (int v = 0; v < table->size.views; v++) {

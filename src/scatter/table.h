@@ -4,7 +4,8 @@
 #define SCATTER_TABLE_H
 // The 4D table of the sky (Elek 2010 Section 4.1; Bruneton and Neyret 2008): radiance of every ray
 // that misses the ground, over the eye's altitude, the ray's zenith angle, the star's zenith angle
-// and the azimuth between them, in four bands, per unit irradiance of the star.
+// and the azimuth between them. Spectral inside, converted last: a texel is X, Y, Z in cd m^-2 and
+// a 0.
 //
 // Channel 0 holds all orders of all constituents whose phase function is smooth, and all but the
 // first order of the others; it is divided by the Rayleigh phase function, which leaves less to
@@ -14,7 +15,7 @@
 #include "scatter/bands.h"
 #include "scatter/solver.h"
 
-enum { TABLE_MAX_PEAKED = 3 };
+enum { TABLE_MAX_PEAKED = 3, TEXEL_FLOATS = 4 };
 
 // Which constituents are peaked; the strongest ones when there are more than channels.
 struct peaked {
@@ -38,7 +39,7 @@ struct table {
     struct table_size size;
     int channels;
     double sun_centre, sun_width, sun_first, sun_last; // see sky_map_sun
-    float *texels; // [channel][altitude][view][sun][azimuth][BAND_COUNT]
+    float *texels; // [channel][altitude][view][sun][azimuth][TEXEL_FLOATS]
 };
 
 struct table_size table_size_default(void);
@@ -53,11 +54,11 @@ TRL_MUST_USE trl_result table_reserve(const trl_context *ctx, const struct momen
                                       int channels, struct table *out);
 void table_finish(const trl_context *ctx, struct table *table);
 
-// One channel at one altitude: [view][sun][azimuth][BAND_COUNT], the layout of a 3D texture.
+// One channel at one altitude: [view][sun][azimuth][TEXEL_FLOATS], the layout of a 3D texture.
 void table_slice(const struct table *table, const struct optics *optics, int channel,
                  double radius_m, float *texels);
 
-// The same at one sun: [view][azimuth][BAND_COUNT]. Between suns the logarithm is interpolated,
+// The same at one sun: [view][azimuth][TEXEL_FLOATS]. Between suns the logarithm is interpolated,
 // since twilight falls by a factor from sun to sun.
 void table_slice_at_sun(const struct table *table, const struct optics *optics, int channel,
                         double radius_m, double sun_mu, float *texels);

@@ -3,6 +3,7 @@
 #include "sky/sky.h"
 
 #include "sky/ground_light.h"
+#include "spectrum/cie.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -102,7 +103,7 @@ trl_result sky_init(struct gpu *gpu, const struct atmosphere *atmosphere, struct
 {
     *out = (struct sky){.gpu = gpu, .atmosphere = atmosphere, .highest_m = -1};
     const struct table_size n = atmosphere->table.size;
-    out->texels = mem_alloc(atmosphere->ctx, (size_t)n.views * n.suns * n.azimuths * BAND_COUNT,
+    out->texels = mem_alloc(atmosphere->ctx, (size_t)n.views * n.suns * n.azimuths * TEXEL_FLOATS,
                             sizeof(float));
     trl_result result = out->texels ? aerial_init(atmosphere, &out->aerial) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
@@ -140,6 +141,20 @@ void sky_finish(struct sky *sky)
     *sky = (struct sky){0};
 }
 
+// Light of the air spans many orders of magnitude from day to night, so its maps hold logarithms:
+// between texels it then falls by factors, as it does in nature. What is darker than 1e-20 is
+// nothing.
+static trl_result upload_log(struct gpu_texture *texture, const struct gpu_region *region,
+                             float *texels)
+{
+    const float darkest = 1e-20f;
+    const size_t count = (size_t)region->width * region->height * region->depth * TEXEL_FLOATS;
+    for (size_t k = 0; k < count; k++) {
+        texels[k] = logf(texels[k] > darkest ? texels[k] : darkest);
+    }
+    return gpu_texture_upload(texture, region, texels);
+}
+
 // The eye as the tables know it: never below the reference sphere.
 static double eye_radius(const struct sky *sky, const struct camera *camera)
 {
@@ -167,7 +182,7 @@ static trl_result update_slices(struct sky *sky, double radius_m, double sun_mu)
             table_slice_at_sun(&a->table, a->optics, c, at_m, sun_mu, sky->texels);
             region.height = 1;
         }
-        result = gpu_texture_upload(&sky->slice[c], &region, sky->texels);
+        result = upload_log(&sky->slice[c], &region, sky->texels);
     }
     sky->slice_radius_m = result == TRL_OK ? at_m : 0;
     // Seen from inside at the very top and then from outside is not the same slice.
@@ -183,7 +198,8 @@ static trl_result update_aerial(struct sky *sky, double radius_m, double sun_mu)
     aerial_update(&sky->aerial, radius_m, sun_mu);
     trl_result result = upload(&sky->extinction, sky->aerial.extinction);
     for (int c = 0; c < sky->atmosphere->table.channels && result == TRL_OK; c++) {
-        result = upload(&sky->scattered[c], sky->aerial.scattered[c]);
+        const struct gpu_region region = gpu_texture_region(&sky->scattered[c], 0);
+        result = upload_log(&sky->scattered[c], &region, sky->aerial.scattered[c]);
     }
     sky->aerial_radius_m = result == TRL_OK ? radius_m : 0;
     sky->aerial_sun_mu = sun_mu;
@@ -269,6 +285,7 @@ static void set_colours(const struct sky *sky, struct gpu_program *program)
 {
     const struct bands *b = &sky->atmosphere->bands;
     float white[3];
+    float rgb_from_xyz[12] = {0};
     float rgb_from_bands[12];
     float bands_from_rgb[12];
     float bands_of_light[12];
@@ -285,6 +302,12 @@ static void set_colours(const struct sky *sky, struct gpu_program *program)
             bands_of_light[4 * k + r] = white[k] > 0 ? b->bands_from_rgb[r][k] / white[k] : 0;
         }
     }
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            rgb_from_xyz[4 * k + i] = (float)cie_rgb_from_xyz[k][i];
+        }
+    }
+    gpu_program_set_vec4s(program, "u_rgb_from_xyz", rgb_from_xyz, 3);
     gpu_program_set_vec4s(program, "u_rgb_from_bands", rgb_from_bands, 3);
     gpu_program_set_vec4s(program, "u_bands_from_rgb", bands_from_rgb, 3);
     gpu_program_set_vec4s(program, "u_bands_of_light", bands_of_light, 3);

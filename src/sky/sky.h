@@ -5,15 +5,17 @@
 // The sky pass: for every pixel either lit ground behind air, or sky with the star's disc.
 //
 //     in   surface buffers (frame/ground.h), or none for a bare sphere
-//     in   slice      3D RGBA32F  azimuth x sun x view, the 4D table at the eye's altitude; inside the air
-//                                 only the first sun is there, the eye's own
-//     altitude in   aerial     3D RGBA32F  depth x azimuth x row, in-scattered radiance per metre
+//     in   slice      3D RGBA32F  azimuth x sun x view, the 4D table at the eye's altitude; inside
+//                                 the air only the first sun is there, the eye's own
+//     in   scattered  3D RGBA32F  depth x azimuth x row, light that the air adds per metre
 //     in   extinction 2D RGBA32F  depth x row, per metre
-//     in   sunlight   2D RGBA32F  sun x altitude, direct light
+//     in   sunlight   2D RGBA32F  sun x altitude, direct light on the ground
 //     in   skylight   2D RGBA32F  sun x altitude, irradiance of level ground by the sky
+//     in   phase      2D RGBA32F  sine of half the angle, phase functions of peaked constituents
 //     out  radiance   RGBA32F     linear sRGB, cd m^-2
 //
-// Textures hold four bands (scatter/bands.h) per unit irradiance of the star; colour comes last.
+// Slice and scattered hold logarithms of XYZ in cd m^-2; the others four bands per unit irradiance
+// of the star (scatter/bands.h).
 
 #include "base/camera.h"
 #include "gpu/pass.h"
