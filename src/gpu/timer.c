@@ -1,7 +1,37 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 #include "gpu/timer.h"
+
 #include "gpu/internal.h"
+#include "gpu/target.h"
+
+// llvmpipe notes when a query begins in the tiles of the framebuffer that it drew to last. A context
+// without a window has none before its first clear or draw, and a query that begins before that
+// gives the time since the machine was started.
+static trl_result clear_something(struct gpu *gpu)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "timer";
+    struct gpu_texture texture;
+    struct gpu_target target = {0};
+    GLint before = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
+    trl_result result = gpu_texture_init(gpu, &desc, &texture);
+    if (result == TRL_OK) {
+        const struct gpu_target_desc only = {
+            .label = "timer", .color_count = 1, .colors[0].texture = &texture};
+        result = gpu_target_init(gpu, &only, &target);
+    }
+    if (result == TRL_OK) {
+        const float black[4] = {0};
+        glBindFramebuffer(GL_FRAMEBUFFER, target.name);
+        glClearBufferfv(GL_COLOR, 0, black);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)before);
+    gpu_target_finish(&target);
+    gpu_texture_finish(&texture);
+    return result;
+}
 
 trl_result gpu_timer_init(struct gpu *gpu, struct gpu_timer *out)
 {
@@ -11,7 +41,10 @@ trl_result gpu_timer_init(struct gpu *gpu, struct gpu_timer *out)
         return TRL_OK;
     }
     glGenQueries(GPU_TIMER_MAX_SCOPES, out->queries);
-    const trl_result result = gpu_check(gpu, "gpu_timer_init");
+    trl_result result = clear_something(gpu);
+    if (result == TRL_OK) {
+        result = gpu_check(gpu, "gpu_timer_init");
+    }
     if (result != TRL_OK) {
         gpu_timer_finish(out);
     }
