@@ -8,8 +8,8 @@
 TRL_BEGIN
 
 /// Where everything hangs: log, memory, progress, folders. There is no global state.
-/// Owner: caller. Lifetime: destroy after everything made from it. Threads: calls on objects of one context
-/// must not overlap unless a function says so; different contexts are independent.
+/// Owner: caller. Lifetime: destroy after everything made from it. Threads: calls on objects of one
+/// context must not overlap unless a function says so; different contexts are independent.
 typedef struct trl_context trl_context;
 
 typedef enum trl_log_level {
@@ -42,15 +42,18 @@ typedef enum trl_log_item {
 #undef TRL_LOG_ITEM_ENUM
 } trl_log_item;
 
-/// Receives one line of log, without a newline. May be called from worker threads of a blocking call.
+/// Receives one line of log, without a newline. May be called from worker threads of a blocking
+/// call.
 typedef void (*trl_log_fn)(void *user, trl_log_level level, trl_log_item item, const char *message);
 
-/// Told how far a long call is. `stage` says what is done ("solving the atmosphere"), `fraction` is in
-/// [0, 1] of that stage. Called on the thread of the blocking call. Return false to cancel the call, which
-/// then returns TRL_ERROR_CANCELLED.
+/// Told how far a long call is. `stage` says what is done ("solving the atmosphere"), `fraction` is
+/// in [0, 1] of that stage. Called on the thread of the blocking call. Return false to cancel the
+/// call, which then returns TRL_ERROR_CANCELLED.
 typedef bool (*trl_progress_fn)(void *user, const char *stage, double fraction);
 
 /// Memory functions with the meaning of the C ones; all three or none. `user` is the desc's.
+/// Threads: called from several at once during a blocking call (solving an atmosphere), so they
+/// must be safe for that, as malloc is.
 typedef struct trl_allocator {
     void *(*allocate)(void *user, size_t bytes); ///< as malloc
     void *(*reallocate)(void *user, void *block, size_t bytes);
@@ -65,16 +68,20 @@ typedef struct trl_context_desc {
     trl_progress_fn progress; ///< NULL: nobody is told
     void *progress_user;      ///< passed to progress
     trl_allocator allocator;  ///< all NULL: the C library's
-    const char *data_dir;     ///< where rasters named by scenes are; NULL: $TERRELLA_DATA, else terrella/data
-                              ///< below $XDG_CACHE_HOME or ~/.cache
-    const char *cache_dir;    ///< where solved tables are kept; NULL: $TERRELLA_CACHE, else as above; "": none
+    /// Where rasters named by scenes are. NULL: $TERRELLA_DATA; without it, or where it is empty,
+    /// terrella/data below $XDG_CACHE_HOME or ~/.cache.
+    const char *data_dir;
+    /// Where solved tables are kept; "": nowhere. NULL: $TERRELLA_CACHE (empty: nowhere); without
+    /// it terrella/tables below $XDG_CACHE_HOME or ~/.cache.
+    const char *cache_dir;
 } trl_context_desc;
 
 /// A desc with every default set. Threads: any.
 TRL_API trl_context_desc trl_context_desc_default(void);
 
 /// Makes a context. The desc's strings are copied.
-/// @return TRL_OK; TRL_ERROR_INVALID (desc not from the default function); TRL_ERROR_MEMORY
+/// @return TRL_OK; TRL_ERROR_INVALID (desc not from the default function, an allocator without all
+/// of its functions); TRL_ERROR_MEMORY
 TRL_API TRL_MUST_USE trl_result trl_context_create(const trl_context_desc *desc, trl_context **out);
 
 /// Frees *ctx and sets it to NULL.
@@ -87,7 +94,8 @@ TRL_API const char *trl_context_data_dir(const trl_context *ctx);
 TRL_API const char *trl_context_cache_dir(const trl_context *ctx);
 
 /// A log callback that prints "terrella: error: …" to standard error, errors and warnings only.
-TRL_API void trl_log_stderr(void *user, trl_log_level level, trl_log_item item, const char *message);
+TRL_API void trl_log_stderr(void *user, trl_log_level level, trl_log_item item,
+                            const char *message);
 
 TRL_END
 #endif // TRL_CONTEXT_H

@@ -7,18 +7,17 @@
 #include "base/vec3.h"
 
 struct camera {
-    struct vec3 position_m;           // from the planet's centre
-    struct vec3 right, up, forward;   // orthonormal
+    struct vec3 position_m;                // from the planet's centre
+    struct vec3 right, up, forward;        // orthonormal
     double tan_half_fov_x, tan_half_fov_y; // half extents of the image plane at distance 1
-    struct vec3 sun_direction;        // unit, toward the star
+    struct vec3 sun_direction;             // unit, toward the star
 };
 
 // Direction of the image point (x, y) in [-1, 1]^2, y up; not normalised.
 static inline struct vec3 camera_ray(const struct camera *camera, double x, double y)
 {
-    return vec3_add(camera->forward,
-                    vec3_add(vec3_scale(camera->right, x * camera->tan_half_fov_x),
-                             vec3_scale(camera->up, y * camera->tan_half_fov_y)));
+    return vec3_add(camera->forward, vec3_add(vec3_scale(camera->right, x * camera->tan_half_fov_x),
+                                              vec3_scale(camera->up, y * camera->tan_half_fov_y)));
 }
 
 #endif // BASE_CAMERA_H

@@ -32,23 +32,39 @@ trl_context_desc trl_context_desc_default(void)
     return (trl_context_desc){.canary = CONTEXT_CANARY};
 }
 
-// The first of: what the caller says, the environment variable, `below` in the user's cache folder.
-static char *choose_dir(const trl_context *ctx, const char *given, const char *variable,
-                        const char *below)
+// A folder that the user can choose.
+struct dir_choice {
+    const char *given;    // what the caller says, before all others
+    const char *variable; // of the environment
+    bool can_be_none;     // whether an empty variable means "no folder", else it counts as unset
+    const char *below;    // name below terrella/ in the user's cache folder, where nobody says
+};
+
+static char *choose_dir(const trl_context *ctx, const struct dir_choice *choice)
 {
-    if (given) {
-        return mem_strdup(ctx, given);
+    if (choice->given) {
+        return mem_strdup(ctx, choice->given);
     }
-    const char *named = getenv(variable);
-    if (named && *named) {
+    const char *named = getenv(choice->variable);
+    if (named && (*named || choice->can_be_none)) {
         return mem_strdup(ctx, named);
     }
     const char *cache = getenv("XDG_CACHE_HOME");
     if (cache && *cache) {
-        return mem_printf(ctx, "%s/terrella/%s", cache, below);
+        return mem_printf(ctx, "%s/terrella/%s", cache, choice->below);
     }
     const char *home = getenv("HOME");
-    return mem_printf(ctx, "%s/.cache/terrella/%s", home && *home ? home : "/tmp", below);
+    return mem_printf(ctx, "%s/.cache/terrella/%s", home && *home ? home : "/tmp", choice->below);
+}
+
+static bool is_whole(const trl_allocator *allocator)
+{
+    return allocator->allocate && allocator->reallocate && allocator->release;
+}
+
+static bool is_absent(const trl_allocator *allocator)
+{
+    return !allocator->allocate && !allocator->reallocate && !allocator->release;
 }
 
 trl_result trl_context_create(const trl_context_desc *desc, trl_context **out)
@@ -57,11 +73,12 @@ trl_result trl_context_create(const trl_context_desc *desc, trl_context **out)
         return TRL_ERROR_INVALID;
     }
     *out = NULL;
-    if (!desc || desc->canary != CONTEXT_CANARY) {
+    if (!desc || desc->canary != CONTEXT_CANARY ||
+        !(is_whole(&desc->allocator) || is_absent(&desc->allocator))) {
         return TRL_ERROR_INVALID;
     }
     trl_context_desc filled = *desc;
-    if (!filled.allocator.allocate) {
+    if (is_absent(&filled.allocator)) {
         filled.allocator = (trl_allocator){c_allocate, c_reallocate, c_release, NULL};
     }
     trl_context *ctx = filled.allocator.allocate(filled.allocator.user, sizeof *ctx);
@@ -69,8 +86,10 @@ trl_result trl_context_create(const trl_context_desc *desc, trl_context **out)
         return TRL_ERROR_MEMORY;
     }
     *ctx = (trl_context){.desc = filled};
-    ctx->data_dir = choose_dir(ctx, desc->data_dir, "TERRELLA_DATA", "data");
-    ctx->cache_dir = choose_dir(ctx, desc->cache_dir, "TERRELLA_CACHE", "tables");
+    ctx->data_dir =
+        choose_dir(ctx, &(struct dir_choice){desc->data_dir, "TERRELLA_DATA", false, "data"});
+    ctx->cache_dir =
+        choose_dir(ctx, &(struct dir_choice){desc->cache_dir, "TERRELLA_CACHE", true, "tables"});
     if (!ctx->data_dir || !ctx->cache_dir) {
         trl_context_destroy(&ctx);
         return TRL_ERROR_MEMORY;

@@ -18,8 +18,8 @@ __attribute__((format(printf, 4, 5))) trl_result
 trl_fail(const trl_context *ctx, trl_result code, trl_log_item item, const char *format, ...);
 
 // Logs one line that is not a failure.
-__attribute__((format(printf, 4, 5))) void
-trl_log(const trl_context *ctx, trl_log_level level, trl_log_item item, const char *format, ...);
+__attribute__((format(printf, 4, 5))) void trl_log(const trl_context *ctx, trl_log_level level,
+                                                   trl_log_item item, const char *format, ...);
 
 // Tells the user how far a stage is. Returns TRL_OK, or TRL_ERROR_CANCELLED (logged) when asked to stop.
 TRL_MUST_USE trl_result trl_progress(const trl_context *ctx, const char *stage, double fraction);
@@ -31,6 +31,7 @@ void mem_free(const trl_context *ctx, void *block); // NULL is a no-op
 
 // Copies of strings, owned by the caller, freed with mem_free. NULL (logged) when memory is out.
 char *mem_strdup(const trl_context *ctx, const char *text);
-__attribute__((format(printf, 2, 3))) char *mem_printf(const trl_context *ctx, const char *format, ...);
+__attribute__((format(printf, 2, 3))) char *mem_printf(const trl_context *ctx, const char *format,
+                                                       ...);
 
 #endif // BASE_CONTEXT_H

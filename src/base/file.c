@@ -19,36 +19,60 @@ static trl_result fail_write(const trl_context *ctx, const char *path, const cha
     return trl_fail(ctx, TRL_ERROR_IO, TRL_LOG_ITEM_FILE_WRITE, "cannot write %s: %s", path, why);
 }
 
+// Reads until `bytes` are there; false (errno, 0 where the file ends early) otherwise.
+static bool read_all(int fd, char *data, size_t bytes)
+{
+    for (size_t have = 0; have < bytes;) {
+        errno = 0;
+        const ssize_t got = read(fd, data + have, bytes - have);
+        if (got <= 0 && errno != EINTR) {
+            return false;
+        }
+        have += got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+static trl_result read_open_file(const trl_context *ctx, const char *path, int fd, size_t max_bytes,
+                                 char **data, size_t *size)
+{
+    struct stat info;
+    if (fstat(fd, &info) != 0) {
+        return fail_read(ctx, path, strerror(errno));
+    }
+    if (!S_ISREG(info.st_mode)) {
+        return fail_read(ctx, path, "not a file");
+    }
+    const size_t bytes = info.st_size > 0 ? (size_t)info.st_size : 0;
+    if (bytes > max_bytes) {
+        return fail_read(ctx, path, "larger than allowed");
+    }
+    char *read_data = mem_alloc(ctx, bytes + 1, 1);
+    if (!read_data) {
+        return TRL_ERROR_MEMORY;
+    }
+    if (!read_all(fd, read_data, bytes)) {
+        const trl_result result = fail_read(ctx, path, errno ? strerror(errno) : "it ends early");
+        mem_free(ctx, read_data);
+        return result;
+    }
+    *data = read_data;
+    *size = bytes;
+    return TRL_OK;
+}
+
 trl_result file_read(const trl_context *ctx, const char *path, size_t max_bytes, char **data,
                      size_t *size)
 {
     *data = NULL;
     *size = 0;
-    FILE *file = fopen(path, "rb");
-    struct stat info;
-    if (!file || fstat(fileno(file), &info) != 0) {
-        const char *why = strerror(errno);
-        if (file) {
-            fclose(file);
-        }
-        return fail_read(ctx, path, why);
+    // Opening a pipe would wait for somebody to write into it.
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) {
+        return fail_read(ctx, path, strerror(errno));
     }
-    trl_result result = TRL_OK;
-    const size_t bytes = info.st_size > 0 ? (size_t)info.st_size : 0;
-    if (!S_ISREG(info.st_mode)) {
-        result = fail_read(ctx, path, "not a file");
-    } else if (bytes > max_bytes) {
-        result = fail_read(ctx, path, "larger than allowed");
-    } else if (!(*data = mem_alloc(ctx, bytes + 1, 1))) {
-        result = TRL_ERROR_MEMORY;
-    } else if (fread(*data, 1, bytes, file) != bytes) {
-        result = fail_read(ctx, path, "it ends early");
-        mem_free(ctx, *data);
-        *data = NULL;
-    } else {
-        *size = bytes;
-    }
-    fclose(file);
+    const trl_result result = read_open_file(ctx, path, fd, max_bytes, data, size);
+    close(fd);
     return result;
 }
 
@@ -133,6 +157,20 @@ trl_result file_write(const trl_context *ctx, const char *path, const void *data
     return file_replacement_commit(ctx, &r);
 }
 
+// One folder, there already or made now; false (errno) otherwise.
+static bool make_dir(const char *path)
+{
+    struct stat info;
+    if (mkdir(path, 0777) == 0) {
+        return true;
+    }
+    if (errno != EEXIST || stat(path, &info) != 0) {
+        return false;
+    }
+    errno = ENOTDIR;
+    return S_ISDIR(info.st_mode);
+}
+
 trl_result file_make_dirs(const trl_context *ctx, const char *path)
 {
     char *partial = mem_strdup(ctx, path);
@@ -146,7 +184,7 @@ trl_result file_make_dirs(const trl_context *ctx, const char *path)
         }
         const char kept = *at;
         *at = '\0';
-        if (mkdir(partial, 0777) != 0 && errno != EEXIST) {
+        if (!make_dir(partial)) {
             result = fail_write(ctx, partial, strerror(errno));
         }
         *at = kept;
