@@ -10,7 +10,8 @@ uniform vec4 u_anchor; // sine, cosine of its latitude, the latitude, the sphere
 
 // Of each layer: place = offset of the anchor from the raster's middle (longitude, latitude), and
 // 1 / extent; shape = how far it reaches from the middle (sideways, north, south; 9 is endless),
-// 1 / feather; texel = width, height in radians, log2 of the height in m.
+// 1 / feather; texel = height's scale (see below), a texel's height in radians, log2 of that in m,
+// offset. Heights are scale times what a texture holds plus the offset, in m.
 #if ELEVATION_COUNT > 0
 uniform vec4 u_elevation_place[4];
 uniform vec4 u_elevation_shape[4];
@@ -135,7 +136,8 @@ float layer_over_cubic(float altitude, sampler2D heights, mat3x4 frame, vec2 geo
     float level = floor(lod);
     float low = layer_cubic(heights, frame[1], at.xy, int(level));
     float high = layer_cubic(heights, frame[1], at.xy, int(level) + (lod > level ? 1 : 0));
-    return mix(altitude, mix(low, high, lod - level), at.z);
+    float value = frame[2].w + frame[2].x * mix(low, high, lod - level);
+    return mix(altitude, value, at.z);
 }
 
 float layer_over_linear(float altitude, sampler2D heights, mat3x4 frame, vec2 geo,
@@ -143,7 +145,8 @@ float layer_over_linear(float altitude, sampler2D heights, mat3x4 frame, vec2 ge
 {
     vec3 at = layer_locate(frame[0], frame[1], geo);
     float lod = log2_footprint - frame[2].z;
-    return mix(altitude, layer_linear(heights, frame[1], at.xy, lod), at.z);
+    float value = frame[2].w + frame[2].x * layer_linear(heights, frame[1], at.xy, lod);
+    return mix(altitude, value, at.z);
 }
 
 #define ELEVATION_FRAME(i) mat3x4(u_elevation_place[i], u_elevation_shape[i], u_elevation_texel[i])

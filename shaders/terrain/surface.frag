@@ -101,7 +101,7 @@ vec2 layer_over_slope(vec2 below, sampler2D heights, mat3x4 frame, vec3 geo_foot
                layer_linear(heights, frame[1], uv_s, lod);
     float de = layer_linear(heights, frame[1], at.xy + to_east, lod) -
                layer_linear(heights, frame[1], at.xy - to_east, lod);
-    vec2 slope = vec2(de / (east * cos_latitude), dn / north) / (2.0 * u_anchor.w);
+    vec2 slope = vec2(de / (east * cos_latitude), dn / north) * (frame[2].x / (2.0 * u_anchor.w));
     return mix(below, slope, at.z);
 }
 

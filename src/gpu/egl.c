@@ -136,6 +136,7 @@ struct gpu_desc gpu_desc_default(void)
                  {"float_linear", GPU_CAP_FLOAT_LINEAR},
                  {"anisotropy", GPU_CAP_ANISOTROPY},
                  {"debug", GPU_CAP_DEBUG},
+                 {"norm16", GPU_CAP_NORM16},
                  {"all", ~UINT32_C(0)}};
     struct gpu_desc desc = {0};
     const char *es = getenv("TRL_GPU_ES");

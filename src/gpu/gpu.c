@@ -58,6 +58,8 @@ static void read_features(struct gpu_caps *caps, uint32_t hidden)
     caps->has_tessellation = !(hidden & GPU_CAP_TESSELLATION) && version >= (es ? 32 : 40);
     caps->has_float_linear = !(hidden & GPU_CAP_FLOAT_LINEAR) &&
                              (!es || epoxy_has_gl_extension("GL_OES_texture_float_linear"));
+    caps->has_norm16 =
+        !(hidden & GPU_CAP_NORM16) && (!es || epoxy_has_gl_extension("GL_EXT_texture_norm16"));
     caps->has_debug = !(hidden & GPU_CAP_DEBUG) &&
                       (version >= (es ? 32 : 43) || epoxy_has_gl_extension("GL_KHR_debug"));
     caps->max_anisotropy = 1;

@@ -18,7 +18,8 @@ enum gpu_cap {
     GPU_CAP_TESSELLATION = 1 << 2,
     GPU_CAP_FLOAT_LINEAR = 1 << 3,
     GPU_CAP_ANISOTROPY = 1 << 4,
-    GPU_CAP_DEBUG = 1 << 5
+    GPU_CAP_DEBUG = 1 << 5,
+    GPU_CAP_NORM16 = 1 << 6
 };
 
 struct gpu_caps {
@@ -29,6 +30,7 @@ struct gpu_caps {
     bool has_timer_query;  // else gpu_timer reports nothing
     bool has_tessellation;
     bool has_float_linear; // 32F textures can be filtered; 16F ones always can
+    bool has_norm16;       // GPU_FORMAT_R16
     bool has_debug;        // labels, and driver messages in the log
     float max_anisotropy;  // 1 when there is none
     uint32_t max_texture_size, max_3d_size, max_array_layers;
@@ -52,7 +54,7 @@ struct gpu {
 
 // The defaults changed by the environment, for development and tests:
 // TRL_GPU_ES=1 asks for ES; TRL_GPU_HIDE is a list, separated by commas, of clip_control,
-// timer_query, tessellation, float_linear, anisotropy, debug, or all.
+// timer_query, tessellation, float_linear, anisotropy, debug, norm16, or all.
 struct gpu_desc gpu_desc_default(void);
 
 // Opens a context without a window (EGL surfaceless, else an EGL device) and makes it current.

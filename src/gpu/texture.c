@@ -21,6 +21,7 @@ static const struct format_info format_infos[GPU_FORMAT_COUNT] = {
     [GPU_FORMAT_R32F] = {"R32F", GL_R32F, GL_RED, GL_FLOAT, 1},
     [GPU_FORMAT_RG32F] = {"RG32F", GL_RG32F, GL_RG, GL_FLOAT, 2},
     [GPU_FORMAT_RGBA32F] = {"RGBA32F", GL_RGBA32F, GL_RGBA, GL_FLOAT, 4},
+    [GPU_FORMAT_R16] = {"R16", GL_R16, GL_RED, GL_UNSIGNED_SHORT, 1},
     [GPU_FORMAT_R16I] = {"R16I", GL_R16I, GL_RED_INTEGER, GL_SHORT, 1},
     [GPU_FORMAT_DEPTH32F] = {"DEPTH32F", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1},
 };
@@ -38,7 +39,9 @@ const char *gpu_format_name(enum gpu_format format)
 size_t gpu_format_texel_bytes(enum gpu_format format)
 {
     const struct format_info *info = &format_infos[format];
-    const size_t component = info->type == GL_UNSIGNED_BYTE ? 1 : info->type == GL_SHORT ? 2 : 4;
+    const size_t component = info->type == GL_UNSIGNED_BYTE                              ? 1
+                             : info->type == GL_SHORT || info->type == GL_UNSIGNED_SHORT ? 2
+                                                                                         : 4;
     return component * info->channels;
 }
 
@@ -136,6 +139,10 @@ static trl_result check_desc(const struct gpu *gpu, const struct gpu_texture_des
         !gpu->caps.has_float_linear) {
         return trl_fail(gpu->ctx, TRL_ERROR_UNSUPPORTED, TRL_LOG_ITEM_GPU_OBJECT,
                         "%s: this GPU does not filter %s", label, name);
+    }
+    if (desc->format == GPU_FORMAT_R16 && !gpu->caps.has_norm16) {
+        return trl_fail(gpu->ctx, TRL_ERROR_UNSUPPORTED, TRL_LOG_ITEM_GPU_OBJECT,
+                        "%s: this GPU does not have %s", label, name);
     }
     return TRL_OK;
 }
@@ -325,7 +332,7 @@ trl_result gpu_texture_make_mips(struct gpu_texture *texture)
     return gpu_check(texture->gpu, "gpu_texture_make_mips");
 }
 
-// ES reads four channels of bytes, ints or floats only.
+// ES reads four channels only, of bytes, ints or floats, and of shorts where it has R16.
 struct wide_texel {
     GLenum external, type;
     size_t bytes;
@@ -336,6 +343,8 @@ static struct wide_texel choose_wide(enum gpu_format format)
     switch (format_infos[format].type) {
     case GL_UNSIGNED_BYTE:
         return (struct wide_texel){GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case GL_UNSIGNED_SHORT:
+        return (struct wide_texel){GL_RGBA, GL_UNSIGNED_SHORT, 8};
     case GL_SHORT:
         return (struct wide_texel){GL_RGBA_INTEGER, GL_INT, 16};
     default:
@@ -352,6 +361,9 @@ static void narrow_texels(enum gpu_format format, size_t count, const void *wide
             switch (format_infos[format].type) {
             case GL_UNSIGNED_BYTE:
                 ((uint8_t *)narrow)[i * channels + c] = ((const uint8_t *)wide)[i * 4 + c];
+                break;
+            case GL_UNSIGNED_SHORT:
+                ((uint16_t *)narrow)[i * channels + c] = ((const uint16_t *)wide)[i * 4 + c];
                 break;
             case GL_SHORT:
                 ((int16_t *)narrow)[i * channels + c] = (int16_t)((const int32_t *)wide)[i * 4 + c];

@@ -6,7 +6,7 @@
 //
 // Texels on the CPU side (upload and read) are tightly packed, row 0 at texture coordinate 0 (a
 // picture that is to be written top row first must be turned over). Components are uint8_t for the
-// 8-bit formats, int16_t for R16I, float for all others, the 16-bit floats included.
+// 8-bit formats, uint16_t for R16, int16_t for R16I, float for all others, the 16-bit floats included.
 
 #include "gpu/gpu.h"
 
@@ -21,6 +21,7 @@ enum gpu_format {
     GPU_FORMAT_R32F,
     GPU_FORMAT_RG32F,
     GPU_FORMAT_RGBA32F,
+    GPU_FORMAT_R16,      // 0 to 1 in 65535 steps; needs has_norm16
     GPU_FORMAT_R16I,     // isampler2D in the shader; GPU_FILTER_NEAREST only
     GPU_FORMAT_DEPTH32F, // 2D and GPU_FILTER_NEAREST only
     GPU_FORMAT_COUNT
@@ -66,8 +67,8 @@ struct gpu_region {
 struct gpu_texture_desc gpu_texture_desc_default(void);
 
 // TRL_ERROR_INVALID: a size of 0 or above the GPU's limits, a filter or shape that the format
-// cannot have; TRL_ERROR_UNSUPPORTED: linear filter of a 32F format without has_float_linear;
-// TRL_ERROR_GPU.
+// cannot have; TRL_ERROR_UNSUPPORTED: linear filter of a 32F format without has_float_linear, R16
+// without has_norm16; TRL_ERROR_GPU.
 TRL_MUST_USE trl_result gpu_texture_init(struct gpu *gpu, const struct gpu_texture_desc *desc,
                                          struct gpu_texture *out);
 void gpu_texture_finish(struct gpu_texture *texture);

@@ -46,17 +46,30 @@ static trl_result check_local_file(const struct raster *raster)
     return TRL_OK;
 }
 
+static GDALDatasetH open_with(const char *path, const char *const *options)
+{
+    return GDALOpenEx(path, GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                      ALLOWED_DRIVERS, options, NULL);
+}
+
+// Compressed tiles are unpacked on all cores; without compression those threads only cost.
+static GDALDatasetH open_threaded(const char *path)
+{
+    GDALDatasetH dataset = open_with(path, NULL);
+    if (dataset && GDALGetMetadataItem(dataset, "COMPRESSION", "IMAGE_STRUCTURE") &&
+        strcmp(GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), "GTiff") == 0) {
+        GDALClose(dataset);
+        dataset = open_with(path, (const char *const[]){"NUM_THREADS=ALL_CPUS", NULL});
+    }
+    return dataset;
+}
+
 static trl_result open_dataset(struct raster *raster)
 {
     gdal_register();
     struct gdal_catcher catcher;
     gdal_catch_begin(&catcher, raster->ctx);
-    // Compressed tiles are unpacked on all cores.
-    CPLSetThreadLocalConfigOption("GDAL_NUM_THREADS", "ALL_CPUS");
-    raster->dataset =
-        GDALOpenEx(raster->path, GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                   ALLOWED_DRIVERS, NULL, NULL);
-    CPLSetThreadLocalConfigOption("GDAL_NUM_THREADS", NULL);
+    raster->dataset = open_threaded(raster->path);
     gdal_catch_end(&catcher);
     if (!raster->dataset) {
         return fail_file(raster, TRL_ERROR_INVALID,
@@ -259,10 +272,13 @@ static trl_result read_band(const struct raster *raster, const struct raster_win
     extra.eResampleAlg = GRIORA_Average;
     struct gdal_catcher catcher;
     gdal_catch_begin(&catcher, raster->ctx);
+    // Uncompressed GeoTIFFs are read to where they shall be, not through a cache of blocks.
+    CPLSetThreadLocalConfigOption("GTIFF_DIRECT_IO", "YES");
     const CPLErr error = GDALRasterIOEx(
         GDALGetRasterBand(raster->dataset, (int)band + 1), GF_Read, (int)w->x, (int)w->y,
         (int)w->width, (int)w->height, to->pixels, (int)w->out_width, (int)w->out_height, to->type,
         to->pixel_bytes, (GSpacing)to->pixel_bytes * w->out_width, &extra);
+    CPLSetThreadLocalConfigOption("GTIFF_DIRECT_IO", NULL);
     gdal_catch_end(&catcher);
     // Some drivers (libpng, libjpeg) report a file that ends early and still say that all is well.
     if (error != CE_None || catcher.message[0]) {

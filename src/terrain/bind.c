@@ -30,18 +30,20 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
     }
 }
 
-static void describe_layer(const struct layer_frame *f, const struct anchor *anchor,
+static void describe_layer(const struct terrain_layer *layer, const struct anchor *anchor,
                            double radius_m, float rows[3][4])
 {
+    const struct layer_frame *f = &layer->frame;
     double east = anchor->longitude_rad - f->centre_longitude;
     east -= 2 * SHARED_PI * floor(east / (2 * SHARED_PI) + 0.5);
-    const double values[3][4] = {
-        {east, anchor->latitude_rad - f->centre_latitude, 0.5 / f->half_width,
-         0.5 / f->half_height},
-        {f->is_whole_circle ? UNBOUNDED : f->half_width,
-         f->touches_north ? UNBOUNDED : f->half_height,
-         f->touches_south ? UNBOUNDED : f->half_height, 1 / fmax(f->feather, 1e-9)},
-        {f->texel_width, f->texel_height, log2(f->texel_height * radius_m), 0}};
+    const double values[3][4] = {{east, anchor->latitude_rad - f->centre_latitude,
+                                  0.5 / f->half_width, 0.5 / f->half_height},
+                                 {f->is_whole_circle ? UNBOUNDED : f->half_width,
+                                  f->touches_north ? UNBOUNDED : f->half_height,
+                                  f->touches_south ? UNBOUNDED : f->half_height,
+                                  1 / fmax(f->feather, 1e-9)},
+                                 {layer->texture_scale_m, f->texel_height,
+                                  log2(f->texel_height * radius_m), layer->texture_offset_m}};
     for (int j = 0; j < 3; j++) {
         for (int i = 0; i < 4; i++) {
             rows[j][i] = (float)values[j][i];
@@ -58,7 +60,7 @@ static void bind_kind(const struct surface *surface, enum surface_kind kind,
     for (size_t i = 0; i < surface->counts[kind]; i++) {
         const struct terrain_layer *layer = &surface->layers[kind][i];
         float rows[3][4];
-        describe_layer(&layer->frame, anchor, surface->radius_m, rows);
+        describe_layer(layer, anchor, surface->radius_m, rows);
         for (int j = 0; j < 3; j++) {
             for (int c = 0; c < 4; c++) {
                 values[j][i][c] = rows[j][c];

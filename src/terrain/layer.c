@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { STRIP_ROWS = 128 }; // converted and uploaded at a time: bounds what is held twice
+enum { STRIP_ROWS = 128 }; // converted and uploaded at a time: what is held twice stays small
 
 static double radians(double degrees)
 {
@@ -211,60 +211,113 @@ static struct gpu_texture_desc describe_texture(const struct layer_frame *frame)
     return desc;
 }
 
-static void convert_strip(const struct terrain_layer *layer, uint32_t row, uint32_t rows,
-                          float *metres)
+// Texels on the CPU: one of the pointers, of `channels` components each.
+struct texels {
+    const uint8_t *bytes;
+    const int16_t *shorts;
+    const float *floats;
+    uint32_t width, height, channels;
+};
+
+static size_t component_bytes(const struct texels *t)
 {
-    const struct layer_heights *h = &layer->heights;
-    const size_t width = layer->frame.width;
-    const float scale = (float)h->scale;
-    const float offset = (float)h->offset_m;
-#pragma omp parallel for
-    for (uint32_t y = 0; y < rows; y++) {
-        float *to = metres + y * width;
-        const size_t from = (row + y) * width;
-        for (size_t x = 0; x < width; x++) {
-            const float value = h->shorts ? (float)h->shorts[from + x] : h->floats[from + x];
-            to[x] = offset + scale * value;
-        }
+    return t->bytes ? sizeof *t->bytes : t->shorts ? sizeof *t->shorts : sizeof *t->floats;
+}
+
+// Means of 2 x 2 texels; beyond the border stands the border's own. The types differ in how sums
+// are rounded.
+#define DEFINE_HALVE(name, type, mean)                                                             \
+    static void name(const type *from, const struct texels *t, type *to)                           \
+    {                                                                                              \
+        const uint32_t width = t->width > 1 ? t->width / 2 : 1;                                    \
+        const uint32_t height = t->height > 1 ? t->height / 2 : 1;                                 \
+        const size_t n = t->channels;                                                              \
+        const size_t right = t->width > 1 ? n : 0;                                                 \
+        const size_t down = t->height > 1 ? (size_t)t->width * n : 0;                              \
+        _Pragma("omp parallel for if (height >= 256)") for (uint32_t y = 0; y < height; y++)       \
+        {                                                                                          \
+            const type *in = from + 2 * (size_t)y * t->width * n;                                  \
+            type *out = to + (size_t)y * width * n;                                                \
+            for (uint32_t x = 0; x < width; x++) {                                                 \
+                for (size_t c = 0; c < n; c++) {                                                   \
+                    const type *p = in + 2 * (size_t)x * n + c;                                    \
+                    out[x * n + c] = (type)(mean);                                                 \
+                }                                                                                  \
+            }                                                                                      \
+        }                                                                                          \
+    }
+DEFINE_HALVE(halve_bytes, uint8_t, (p[0] + p[right] + p[down] + p[right + down] + 2) >> 2)
+DEFINE_HALVE(halve_shorts, int16_t, (p[0] + p[right] + p[down] + p[right + down] + 2) >> 2)
+DEFINE_HALVE(halve_floats, float, (p[0] + p[right] + p[down] + p[right + down]) * 0.25f)
+#undef DEFINE_HALVE
+
+// The next level, written to `to`.
+static struct texels halve(const struct texels *t, void *to)
+{
+    struct texels half = {.width = t->width > 1 ? t->width / 2 : 1,
+                          .height = t->height > 1 ? t->height / 2 : 1,
+                          .channels = t->channels};
+    if (t->bytes) {
+        halve_bytes(t->bytes, t, to);
+        half.bytes = to;
+    } else if (t->shorts) {
+        halve_shorts(t->shorts, t, to);
+        half.shorts = to;
+    } else {
+        halve_floats(t->floats, t, to);
+        half.floats = to;
+    }
+    return half;
+}
+
+// Shorts as the texture wants them: steps from the lowest, or floats.
+static void convert_shorts(const int16_t *from, size_t count, enum gpu_format format, void *strip)
+{
+    uint16_t *steps = strip;
+    float *floats = strip;
+    for (size_t i = 0; i < count && format == GPU_FORMAT_R16; i++) {
+        steps[i] = (uint16_t)(from[i] - INT16_MIN);
+    }
+    for (size_t i = 0; i < count && format == GPU_FORMAT_R32F; i++) {
+        floats[i] = from[i];
     }
 }
 
-// The mean of 2 x 2 texels of the level above; `from` is NULL for the heights themselves.
-static void halve_level(const struct terrain_layer *layer, const float *from, uint32_t level,
-                        float *to)
+static trl_result upload_level(struct terrain_layer *layer, uint32_t level, const struct texels *t,
+                               void *strip)
 {
-    const uint32_t across = layer->frame.width >> (level - 1);
-    const uint32_t down = layer->frame.height >> (level - 1);
-    const uint32_t from_width = across > 0 ? across : 1;
-    const uint32_t from_height = down > 0 ? down : 1;
-    const uint32_t width = from_width > 1 ? from_width / 2 : 1;
-    const uint32_t height = from_height > 1 ? from_height / 2 : 1;
-    for (uint32_t y = 0; y < height; y++) {
-        for (uint32_t x = 0; x < width; x++) {
-            double sum = 0;
-            for (uint32_t k = 0; k < 4; k++) {
-                const uint32_t column = 2 * x + k % 2 < from_width ? 2 * x + k % 2 : from_width - 1;
-                const uint32_t row = 2 * y + k / 2 < from_height ? 2 * y + k / 2 : from_height - 1;
-                sum += from ? (double)from[(size_t)row * from_width + column]
-                            : layer_texel(layer, column, row);
-            }
-            to[(size_t)y * width + x] = (float)(sum / 4);
-        }
+    if (!t->shorts) {
+        const struct gpu_region all = gpu_texture_region(&layer->texture, level);
+        return gpu_texture_upload(&layer->texture, &all,
+                                  t->bytes ? (const void *)t->bytes : t->floats);
     }
+    trl_result result = TRL_OK;
+    for (uint32_t y = 0; y < t->height && result == TRL_OK; y += STRIP_ROWS) {
+        const uint32_t left = t->height - y;
+        const uint32_t rows = left < STRIP_ROWS ? left : STRIP_ROWS;
+        convert_shorts(t->shorts + (size_t)y * t->width, (size_t)rows * t->width,
+                       layer->texture.format, strip);
+        const struct gpu_region region = {level, 0, y, 0, t->width, rows, 1};
+        result = gpu_texture_upload(&layer->texture, &region, strip);
+    }
+    return result;
 }
 
-// Where the GPU does not filter 32-bit floats it makes no mips of them either.
-static trl_result upload_own_mips(struct terrain_layer *layer)
+// All levels. Made here and not by the GPU: software compiles a program for each format, which
+// takes longer, and where 32F is not filtered there are no mips of it.
+static trl_result upload_levels(struct terrain_layer *layer, const struct texels *t)
 {
-    const size_t count = ((size_t)layer->frame.width / 2 + 1) * (layer->frame.height / 2 + 1);
-    float *levels[2] = {mem_alloc(layer->ctx, count, sizeof(float)),
-                        mem_alloc(layer->ctx, count, sizeof(float))};
-    trl_result result = levels[0] && levels[1] ? TRL_OK : TRL_ERROR_MEMORY;
-    for (uint32_t i = 1; i < layer->texture.levels && result == TRL_OK; i++) {
-        halve_level(layer, i == 1 ? NULL : levels[(i - 1) % 2], i, levels[i % 2]);
-        const struct gpu_region all = gpu_texture_region(&layer->texture, i);
-        result = gpu_texture_upload(&layer->texture, &all, levels[i % 2]);
+    const size_t half = ((size_t)t->width / 2 + 1) * (t->height / 2 + 1) * t->channels;
+    void *levels[2] = {mem_alloc(layer->ctx, half, component_bytes(t)),
+                       mem_alloc(layer->ctx, half, component_bytes(t))};
+    void *strip = mem_alloc(layer->ctx, (size_t)STRIP_ROWS * t->width, sizeof(float));
+    trl_result result = levels[0] && levels[1] && strip ? TRL_OK : TRL_ERROR_MEMORY;
+    struct texels at = *t;
+    for (uint32_t i = 0; i < layer->texture.levels && result == TRL_OK; i++) {
+        at = i == 0 ? at : halve(&at, levels[i % 2]);
+        result = upload_level(layer, i, &at, strip);
     }
+    mem_free(layer->ctx, strip);
     mem_free(layer->ctx, levels[0]);
     mem_free(layer->ctx, levels[1]);
     return result;
@@ -272,27 +325,23 @@ static trl_result upload_own_mips(struct terrain_layer *layer)
 
 trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer)
 {
+    const struct layer_heights *h = &layer->heights;
     struct gpu_texture_desc desc = describe_texture(&layer->frame);
+    const bool is_norm = h->shorts && gpu->caps.has_norm16;
     desc.label = "elevation";
-    desc.format = GPU_FORMAT_R32F;
-    if (!gpu->caps.has_float_linear) {
+    desc.format = is_norm ? GPU_FORMAT_R16 : GPU_FORMAT_R32F;
+    if (!is_norm && !gpu->caps.has_float_linear) {
         desc.filter = GPU_FILTER_NEAREST; // terrain/layers.glsl filters by itself
     }
-    float *strip = mem_alloc(layer->ctx, (size_t)STRIP_ROWS * layer->frame.width, sizeof *strip);
-    trl_result result = strip ? gpu_texture_init(gpu, &desc, &layer->texture) : TRL_ERROR_MEMORY;
-    for (uint32_t y = 0; y < layer->frame.height && result == TRL_OK; y += STRIP_ROWS) {
-        const uint32_t left = layer->frame.height - y;
-        const uint32_t rows = left < STRIP_ROWS ? left : STRIP_ROWS;
-        convert_strip(layer, y, rows, strip);
-        const struct gpu_region region = {0, 0, y, 0, layer->frame.width, rows, 1};
-        result = gpu_texture_upload(&layer->texture, &region, strip);
-    }
-    mem_free(layer->ctx, strip);
-    if (result != TRL_OK) {
-        return result;
-    }
-    return gpu->caps.has_float_linear ? gpu_texture_make_mips(&layer->texture)
-                                      : upload_own_mips(layer);
+    layer->texture_scale_m = is_norm ? UINT16_MAX * h->scale : h->scale;
+    layer->texture_offset_m = h->offset_m + (is_norm ? INT16_MIN * h->scale : 0);
+    const struct texels texels = {.shorts = h->shorts,
+                                  .floats = h->floats,
+                                  .width = layer->frame.width,
+                                  .height = layer->frame.height,
+                                  .channels = 1};
+    const trl_result result = gpu_texture_init(gpu, &desc, &layer->texture);
+    return result == TRL_OK ? upload_levels(layer, &texels) : result;
 }
 
 // sRGB byte to the square root of its linear value: filtered as it is, it wastes no steps on dark
@@ -312,9 +361,12 @@ static trl_result upload_bytes(struct gpu *gpu, enum gpu_format format, const ui
     struct gpu_texture_desc desc = describe_texture(&layer->frame);
     desc.label = format == GPU_FORMAT_R8 ? "mask" : "picture";
     desc.format = format;
-    desc.data = bytes;
+    const struct texels texels = {.bytes = bytes,
+                                  .width = layer->frame.width,
+                                  .height = layer->frame.height,
+                                  .channels = gpu_format_channels(format)};
     const trl_result result = gpu_texture_init(gpu, &desc, &layer->texture);
-    return result == TRL_OK ? gpu_texture_make_mips(&layer->texture) : result;
+    return result == TRL_OK ? upload_levels(layer, &texels) : result;
 }
 
 static struct raster_window texture_window(const struct raster *raster, const struct gpu *gpu)

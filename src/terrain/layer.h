@@ -30,6 +30,8 @@ struct terrain_layer {
     struct layer_frame frame;
     struct layer_heights heights; // of elevation layers only
     struct gpu_texture texture;
+    // Of elevation layers: metres are this times what the texture holds, and this more.
+    double texture_scale_m, texture_offset_m;
 };
 
 // A place as columns and rows of a layer, (0, 0) the first texel's centre.
@@ -63,7 +65,7 @@ TRL_MUST_USE trl_result layer_read_heights(const struct raster *raster,
                                            const struct layer_fill *below,
                                            struct terrain_layer *layer);
 
-// Texture of heights in metres from the heights on the CPU.
+// Texture of heights from the heights on the CPU.
 TRL_MUST_USE trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer);
 
 // Texture of a picture, encoded as the square root of the linear value; alpha is its coverage.

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 static const char *const KIND_NAMES[SURFACE_KIND_COUNT] = {"elevation", "colour", "water",
@@ -61,6 +62,11 @@ static void read_mask_row(const struct loader *loader, const struct layer_frame 
         const double step = f->texel_width / m->texel_width;
         const uint8_t *texels =
             loader->masks[i] + layer_texel_index(m, 0, (int64_t)floor(first.y + 0.5));
+        const bool is_alike = m->is_whole_circle && m->width == f->width && fabs(first.x) < 0.5;
+        if (is_alike && first.weight > 0) {
+            memcpy(row, texels, m->width);
+            continue;
+        }
         for (uint32_t x = 0; x < f->width && m->is_whole_circle && first.weight > 0; x++) {
             const uint32_t column = (uint32_t)(first.x + 0.5 + x * step);
             row[x] = texels[column < m->width ? column : column - m->width];

@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static void contexts_come_and_go_together(void **state)
 {
@@ -100,7 +101,8 @@ static void hidden_capabilities_are_missing(void **state)
     struct gpu *gpu = NULL;
     assert_int_equal(gpu_create_headless_with(f->ctx, &desc, &gpu), TRL_OK);
     assert_false(gpu->caps.has_clip_control || gpu->caps.has_timer_query ||
-                 gpu->caps.has_tessellation || gpu->caps.has_float_linear || gpu->caps.has_debug);
+                 gpu->caps.has_tessellation || gpu->caps.has_float_linear || gpu->caps.has_debug ||
+                 gpu->caps.has_norm16);
     assert_true(gpu->caps.max_anisotropy == 1);
     struct gpu_timer timer;
     assert_int_equal(gpu_timer_init(gpu, &timer), TRL_OK);
@@ -251,6 +253,46 @@ static void every_failed_allocation_is_survived(void **state)
     assert_int_equal(gpu_make_current(f->gpu), TRL_OK);
 }
 
+static double read_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+// Also when nothing was drawn before it, and when it holds no work at all.
+static void the_first_scope_of_a_context_lasts_no_longer_than_it_did(void **state)
+{
+    struct fixture *f = *state;
+    const struct gpu_desc desc = gpu_desc_default();
+    struct gpu *gpu = NULL;
+    assert_int_equal(gpu_create_headless_with(f->ctx, &desc, &gpu), TRL_OK);
+    const double begun_ms = read_ms();
+    struct gpu_timer timer;
+    assert_int_equal(gpu_timer_init(gpu, &timer), TRL_OK);
+    gpu_timer_begin(&timer, "nothing");
+    gpu_timer_begin(&timer, "clear");
+    const struct gpu_texture_desc texture_desc = gpu_texture_desc_default();
+    struct gpu_texture texture;
+    assert_int_equal(gpu_texture_init(gpu, &texture_desc, &texture), TRL_OK);
+    const struct gpu_target_desc target_desc = {.color_count = 1, .colors[0].texture = &texture};
+    struct gpu_target target;
+    assert_int_equal(gpu_target_init(gpu, &target_desc, &target), TRL_OK);
+    gpu_pass_begin(gpu, &(struct gpu_pass){.target = &target, .clears_color = true});
+    struct gpu_timer_row rows[2];
+    const size_t count = gpu_timer_collect(&timer, rows, 2);
+    const double spent_ms = read_ms() - begun_ms;
+    assert_int_equal(count, gpu->caps.has_timer_query ? 2 : 0);
+    for (size_t i = 0; i < count; i++) {
+        assert_true(rows[i].ms >= 0 && rows[i].ms <= spent_ms);
+    }
+    gpu_timer_finish(&timer);
+    gpu_target_finish(&target);
+    gpu_texture_finish(&texture);
+    gpu_destroy(&gpu);
+    assert_int_equal(gpu_make_current(f->gpu), TRL_OK);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -261,6 +303,7 @@ int main(void)
         cmocka_unit_test(hidden_capabilities_are_missing),
         cmocka_unit_test(limits_are_those_of_the_standard_or_more),
         cmocka_unit_test(timers_give_a_row_for_each_scope),
+        cmocka_unit_test(the_first_scope_of_a_context_lasts_no_longer_than_it_did),
         cmocka_unit_test(gl_errors_are_reported_once),
         cmocka_unit_test(every_failed_allocation_is_survived),
     };
