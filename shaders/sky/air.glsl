@@ -9,6 +9,9 @@
 #include "shared/phase.glsl"
 #include "shared/sky_map.glsl"
 
+uniform vec3 u_forward;
+uniform vec3 u_right;       // scaled to half the picture's width at distance 1
+uniform vec3 u_up;          // the same for its height
 uniform vec3 u_eye_up;      // unit, planet frame
 uniform vec3 u_sun;         // unit, toward the star
 uniform vec4 u_eye;         // radius, altitude, cosine of the star's zenith angle, is outside the air
@@ -76,6 +79,13 @@ Ray make_ray(vec3 direction)
         ray.end_m = ray.begin_m;
     }
     return ray;
+}
+
+// Through a pixel, by its place in the picture: (0, 0) lower left, (1, 1) upper right.
+Ray make_pixel_ray(vec2 uv)
+{
+    vec2 at = 2.0 * uv - 1.0;
+    return make_ray(normalize(u_forward + at.x * u_right + at.y * u_up));
 }
 
 float azimuth_coordinate(float mu, float sun_mu, float nu)

@@ -60,6 +60,7 @@ static void finish_targets(struct frame *frame)
     gpu_target_finish(&frame->radiance_target);
     gpu_target_finish(&frame->picture_target);
     gpu_texture_finish(&frame->radiance);
+    gpu_texture_finish(&frame->kinds);
     gpu_texture_finish(&frame->picture);
     frame->is_drawn = false;
 }
@@ -87,9 +88,16 @@ static trl_result make_radiance(struct frame *frame, uint32_t width, uint32_t he
     desc.filter = GPU_FILTER_NEAREST;
     desc.width = width;
     desc.height = height;
-    const trl_result result = gpu_texture_init(frame->gpu, &desc, &frame->radiance);
-    const struct gpu_target_desc target = {
-        .label = "radiance", .color_count = 1, .colors[0].texture = &frame->radiance};
+    trl_result result = gpu_texture_init(frame->gpu, &desc, &frame->radiance);
+    if (result == TRL_OK) {
+        desc.label = "kinds";
+        desc.format = GPU_FORMAT_DEPTH32F;
+        result = gpu_texture_init(frame->gpu, &desc, &frame->kinds);
+    }
+    const struct gpu_target_desc target = {.label = "radiance",
+                                           .color_count = 1,
+                                           .colors[0].texture = &frame->radiance,
+                                           .depth.texture = &frame->kinds};
     return result == TRL_OK ? gpu_target_init(frame->gpu, &target, &frame->radiance_target)
                             : result;
 }

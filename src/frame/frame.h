@@ -41,7 +41,7 @@ struct frame {
     struct exposure exposure;
     struct tone tone;
     struct frame_clock clock;
-    struct gpu_texture radiance, picture; // of the size of the last frame, or none
+    struct gpu_texture radiance, kinds, picture; // of the size of the last frame, or none
     struct gpu_target radiance_target, picture_target;
     bool is_drawn; // the targets hold a whole frame
 };

@@ -82,19 +82,32 @@ static trl_result make_phase(struct sky *sky)
     return result;
 }
 
+struct variant {
+    struct gpu_program *program;
+    const char *fragment;
+    const char *define;
+};
+
 static trl_result make_programs(struct sky *sky)
 {
+    const struct variant variants[] = {
+        {&sky->bare.sort, "sky/sort.frag", NULL},
+        {&sky->surface.sort, "sky/sort.frag", "SURFACE"},
+        {&sky->air, "sky/sky.frag", NULL},
+        {&sky->star, "sky/sky.frag", "STAR"},
+        {&sky->bare.ground, "sky/ground.frag", NULL},
+        {&sky->surface.ground, "sky/ground.frag", "SURFACE"},
+    };
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", sky->atmosphere->peaked.count);
-    const char *const defines[] = {peaked, "SURFACE"};
-    struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
-                                    .fragment = "sky/sky.frag",
-                                    .defines = defines,
-                                    .define_count = 1};
-    trl_result result = gpu_program_init(sky->gpu, &desc, &sky->bare);
-    if (result == TRL_OK) {
-        desc.define_count = 2;
-        result = gpu_program_init(sky->gpu, &desc, &sky->surface);
+    trl_result result = TRL_OK;
+    for (size_t i = 0; i < sizeof variants / sizeof *variants && result == TRL_OK; i++) {
+        const char *const defines[] = {peaked, variants[i].define};
+        const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
+                                              .fragment = variants[i].fragment,
+                                              .defines = defines,
+                                              .define_count = variants[i].define ? 2 : 1};
+        result = gpu_program_init(sky->gpu, &desc, variants[i].program);
     }
     return result;
 }
@@ -126,8 +139,12 @@ void sky_finish(struct sky *sky)
     if (!sky->gpu) {
         return;
     }
-    gpu_program_finish(&sky->bare);
-    gpu_program_finish(&sky->surface);
+    gpu_program_finish(&sky->bare.sort);
+    gpu_program_finish(&sky->bare.ground);
+    gpu_program_finish(&sky->surface.sort);
+    gpu_program_finish(&sky->surface.ground);
+    gpu_program_finish(&sky->air);
+    gpu_program_finish(&sky->star);
     for (int c = 0; c <= TABLE_MAX_PEAKED; c++) {
         gpu_texture_finish(&sky->slice[c]);
         gpu_texture_finish(&sky->scattered[c]);
@@ -338,21 +355,87 @@ static void set_maps(const struct sky *sky, struct gpu_program *program)
     gpu_program_set_texture(program, "u_phase", &sky->phase);
 }
 
+// Pixels in which the star's disc may show. From far off the axis the disc looks longer: outward it
+// reaches from the tangent of the angle to that of the angle and the disc's.
+static struct gpu_rect find_star(const struct sky *sky, const struct camera *camera,
+                                 const struct gpu_target *target)
+{
+    const double pixel_rad = 2 * camera->tan_half_fov_y / target->height;
+    const double disc_rad = sky->atmosphere->solution.sun.disc_rad + pixel_rad;
+    const double along = vec3_dot(camera->sun_direction, camera->forward);
+    const double off_rad = acos(fmax(-1, fmin(1, along)));
+    if (off_rad - disc_rad > M_PI / 2) {
+        return (struct gpu_rect){0};
+    }
+    if (off_rad + disc_rad > 0.49 * M_PI) {
+        return (struct gpu_rect){0, 0, target->width, target->height};
+    }
+    const double reach = tan(off_rad + disc_rad) - tan(off_rad);
+    const double x = vec3_dot(camera->sun_direction, camera->right) / along;
+    const double y = vec3_dot(camera->sun_direction, camera->up) / along;
+    const double half_width = 0.5 * target->width / camera->tan_half_fov_x; // pixels
+    const double half_height = 0.5 * target->height / camera->tan_half_fov_y;
+    const double left = fmax(0, 0.5 * target->width + (x - reach) * half_width - 1);
+    const double right = fmin(target->width, 0.5 * target->width + (x + reach) * half_width + 1);
+    const double low = fmax(0, 0.5 * target->height + (y - reach) * half_height - 1);
+    const double high = fmin(target->height, 0.5 * target->height + (y + reach) * half_height + 1);
+    if (left >= right || low >= high) {
+        return (struct gpu_rect){0};
+    }
+    return (struct gpu_rect){(uint32_t)left, (uint32_t)low, (uint32_t)ceil(right) - (uint32_t)left,
+                             (uint32_t)ceil(high) - (uint32_t)low};
+}
+
+// One kind of pixels, by a depth between those of sort.frag and which side of it they are on.
+static trl_result draw_kind(struct sky *sky, struct gpu_program *program, double depth,
+                            const struct gpu_pass *pass)
+{
+    set_colours(sky, program);
+    set_maps(sky, program);
+    gpu_program_set_float(program, "u_depth", (float)depth);
+    gpu_pass_begin(sky->gpu, pass);
+    return gpu_draw_fullscreen(program, "sky");
+}
+
+static trl_result draw_air(struct sky *sky, const struct camera *camera,
+                           const struct gpu_target *target)
+{
+    struct gpu_pass pass = {.target = target, .state.depth = GPU_DEPTH_NEARER};
+    set_view(sky, &sky->air, camera, target);
+    trl_result result = draw_kind(sky, &sky->air, 0.25, &pass);
+    pass.scissor = find_star(sky, camera, target);
+    if (result == TRL_OK && pass.scissor.width > 0) {
+        set_view(sky, &sky->star, camera, target);
+        result = draw_kind(sky, &sky->star, 0.75, &pass);
+    }
+    return result;
+}
+
 trl_result sky_draw(struct sky *sky, const struct camera *camera, const struct sky_surface *surface,
                     const struct gpu_target *target)
 {
     const bool is_bare = !surface || !surface->position;
-    struct gpu_program *program = is_bare ? &sky->bare : &sky->surface;
-    set_view(sky, program, camera, target);
-    set_colours(sky, program);
-    set_maps(sky, program);
+    struct sky_ground *programs = is_bare ? &sky->bare : &sky->surface;
     if (!is_bare) {
-        gpu_program_set_texture(program, "u_position", surface->position);
-        gpu_program_set_texture(program, "u_albedo", surface->albedo);
-        gpu_program_set_texture(program, "u_normal", surface->normal);
-        gpu_program_set_texture(program, "u_lights", surface->lights);
+        gpu_program_set_texture(&programs->sort, "u_position", surface->position);
+        gpu_program_set_texture(&programs->ground, "u_position", surface->position);
+        gpu_program_set_texture(&programs->ground, "u_albedo", surface->albedo);
+        gpu_program_set_texture(&programs->ground, "u_normal", surface->normal);
+        gpu_program_set_texture(&programs->ground, "u_lights", surface->lights);
     }
-    const struct gpu_pass pass = {.target = target};
-    gpu_pass_begin(sky->gpu, &pass);
-    return gpu_draw_fullscreen(program, "sky");
+    const struct gpu_pass sort = {.target = target,
+                                  .state = {.writes_depth = true, .hides_color = true},
+                                  .clears_color = true,
+                                  .color = {0, 0, 0, 1}};
+    set_view(sky, &programs->sort, camera, target);
+    trl_result result = draw_kind(sky, &programs->sort, 0.5, &sort);
+    if (result == TRL_OK) {
+        result = draw_air(sky, camera, target);
+    }
+    if (result == TRL_OK) {
+        const struct gpu_pass pass = {.target = target, .state.depth = GPU_DEPTH_FARTHER};
+        set_view(sky, &programs->ground, camera, target);
+        result = draw_kind(sky, &programs->ground, 0.75, &pass);
+    }
+    return result;
 }

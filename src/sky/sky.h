@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #ifndef SKY_SKY_H
 #define SKY_SKY_H
-// The sky pass: for every pixel either lit ground behind air, or sky with the star's disc.
+// The sky pass: for every pixel either lit ground behind air, or sky with the star's disc. Pixels are
+// first sorted into ground, air and space, and each kind is drawn by a program of its own with a
+// depth test: a software rasteriser runs both sides of a branch.
 //
 //     in   surface buffers (frame/ground.h), or none for a bare sphere
 //     in   slice      3D RGBA32F  azimuth x sun x view, the 4D table at the eye's altitude; inside
@@ -13,6 +15,7 @@
 //     in   skylight   2D RGBA32F  sun x altitude, irradiance of level ground by the sky
 //     in   phase      2D RGBA32F  sine of half the angle, phase functions of peaked constituents
 //     out  radiance   RGBA32F     linear sRGB, cd m^-2
+//     out  kinds      DEPTH32F    scratch; see sort.frag
 //
 // Slice and scattered hold logarithms of XYZ in cd m^-2; the others four bands per unit irradiance
 // of the star (scatter/bands.h).
@@ -26,11 +29,17 @@ struct sky_surface {
     const struct gpu_texture *albedo, *normal, *lights;
 };
 
+// What differs between a bare sphere and a surface.
+struct sky_ground {
+    struct gpu_program sort, ground;
+};
+
 struct sky {
     struct gpu *gpu;
     const struct atmosphere *atmosphere;
     struct aerial aerial;
-    struct gpu_program bare, surface;
+    struct sky_ground bare, surface;
+    struct gpu_program air, star; // star: where the disc may be
     struct gpu_texture slice[1 + TABLE_MAX_PEAKED];
     struct gpu_texture scattered[1 + TABLE_MAX_PEAKED];
     struct gpu_texture extinction, sunlight, skylight, phase;
@@ -51,7 +60,7 @@ void sky_finish(struct sky *sky);
 // the highest ground.
 TRL_MUST_USE trl_result sky_prepare(struct sky *sky, const struct camera *camera, double highest_m);
 
-// Draws all pixels of the target.
+// Draws all pixels of the target, which has a depth texture that nobody else uses meanwhile.
 TRL_MUST_USE trl_result sky_draw(struct sky *sky, const struct camera *camera,
                                  const struct sky_surface *surface,
                                  const struct gpu_target *target);
