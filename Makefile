@@ -18,10 +18,10 @@ help: ## lists these tasks
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
 
 setup: ## installs the packages that are missing (root or sudo)
-	@tools/install-packages.sh
+	@tools/install-packages.sh $(PARTS)
 
 build: setup ## builds the program: build/terrella
-	@tools/build.sh $(BUILD)
+	@tools/build.sh $(BUILD) $(if $(CI),-Dwerror=true)
 	@mkdir -p "$$MESA_SHADER_CACHE_DIR"
 	@ln -sfn release/terrella $(TERRELLA)
 
@@ -37,13 +37,15 @@ view: build ## opens Earth in the viewer
 	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
 	@$(TERRELLA) view scenes/earth.json
 
+# The part of tools/packages.txt; `setup` sees it too.
+test: PARTS := test
 test: build ## every test; the last line counts them
 	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
 	@tools/run-tests.sh $(BUILD)
 
-bench: build ## measures speed and memory, prints a table
+bench: build ## measures speed and memory, prints a table; BENCH="solver --json" for one
 	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
-	@$(TERRELLA) bench
+	@$(TERRELLA) bench $(BENCH)
 
 clean: ## removes what was built, not the data
 	rm -rf build demo

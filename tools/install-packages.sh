@@ -1,12 +1,18 @@
 #!/bin/bash
 # SPDX-FileCopyrightText: 2026 the Terrella authors
 # SPDX-License-Identifier: MIT
-# Installs the packages of tools/packages.txt that are missing. Does nothing, and needs no rights, when all
-# are there.
+# install-packages.sh [PART…]: installs the packages of tools/packages.txt that are missing: those of no part,
+# and of the parts named. Does nothing, and needs no rights, when all are there.
 set -euo pipefail
 cd "$(dirname "$0")"
 
-mapfile -t wanted < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' packages.txt)
+list_wanted() { # parts
+    awk -v parts=" $* " '
+        { sub(/#.*/, ""); gsub(/[[:space:]]/, "") }
+        /^\[.*\]$/ { is_unwanted = !index(parts, " " substr($0, 2, length($0) - 2) " "); next }
+        $0 != "" && !is_unwanted' packages.txt
+}
+mapfile -t wanted < <(list_wanted "$@")
 
 # Names of the wanted packages that are not installed; one call of dpkg for all.
 list_missing() {

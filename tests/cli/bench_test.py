@@ -5,12 +5,14 @@
 import json
 import unittest
 
-from process import SCENES, ProgramTest, require_gl
+from process import IS_SLOW, SCENES, ProgramTest, require_gl
+
+RUNS = 1 if IS_SLOW else 2
 
 
 class Bench(ProgramTest):
     def measure(self, *words):
-        done = self.expect_success("bench", *words, "--json", "--runs", "2", "--scene", self.write_scene())
+        done = self.expect_success("bench", *words, "--json", "--runs", RUNS, "--scene", self.write_scene())
         return [json.loads(line) for line in done.stdout.splitlines()]
 
     def check_form(self, bench, name):
@@ -21,7 +23,7 @@ class Bench(ProgramTest):
         for row in bench["rows"]:
             self.assertEqual(list(row), ["case", "metric", "unit", "median", "min", "runs"])
             self.assertLessEqual(row["min"], row["median"])
-            self.assertEqual(row["runs"], 2)
+            self.assertEqual(row["runs"], RUNS)
 
     def test_solver_and_tables(self):
         solver, tables = self.measure("solver", "tables")

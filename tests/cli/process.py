@@ -15,6 +15,8 @@ import zlib
 
 PROGRAM = os.environ["TERRELLA_PROGRAM"]
 SCENES = pathlib.Path(os.environ["TERRELLA_SCENES"])
+# A build with sanitizers, where solving takes several times as long: tests repeat less.
+IS_SLOW = os.environ.get("TERRELLA_IS_SLOW") == "1"
 
 # A thin grey atmosphere of one constituent: the solver needs a moment for it.
 THIN_SCENE = {
@@ -61,13 +63,21 @@ def require_gl():
 
 
 class ProgramTest(unittest.TestCase):
-    """Each test has a folder of its own, with data and cache in it, and finds nothing left behind."""
+    """Each test has a folder of its own, with data in it, and finds nothing left behind.
+
+    The tests of a class share the cache, so that a scene is solved once; one that is about the cache sets its own.
+    """
+
+    @classmethod
+    def setUpClass(cls):
+        cls.shared_cache = pathlib.Path(tempfile.mkdtemp(prefix="terrella-test-cache-"))
+        cls.addClassCleanup(shutil.rmtree, cls.shared_cache)
 
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="terrella-test-"))
         self.addCleanup(shutil.rmtree, self.folder)
         self.data = self.folder / "data"
-        self.cache = self.folder / "cache"
+        self.cache = self.shared_cache
         self.work = self.folder / "work"
         self.data.mkdir()
         self.work.mkdir()

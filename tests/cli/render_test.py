@@ -8,7 +8,7 @@ import struct
 import time
 import unittest
 
-from process import THIN_SCENE, ProgramTest, count_values, read_png, require_gl
+from process import IS_SLOW, THIN_SCENE, ProgramTest, count_values, read_png, require_gl
 
 SIZE = "96x54"
 
@@ -136,6 +136,10 @@ class Failures(ProgramTest):
 
 
 class Cache(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.cache = self.folder / "cache"
+
     def draw(self, scene, name):
         done = self.expect_success("render", scene, "--size", SIZE, "-o", name)
         return (self.work / name).read_bytes(), done
@@ -151,15 +155,19 @@ class Cache(ProgramTest):
         self.assertEqual(self.draw(scene, "read.exr")[0], fresh)
         for table in tables:
             whole = table.read_bytes()
-            self.break_and_draw(scene, fresh, table, whole[:len(whole) // 2])
-            self.break_and_draw(scene, fresh, table, whole[:-1])
-            self.break_and_draw(scene, fresh, table, whole + b"x")
-            self.break_and_draw(scene, fresh, table, b"")
-            for place in [0, 9, len(whole) // 2, len(whole) - 1]:
-                flipped = bytearray(whole)
-                flipped[place] ^= 0x10
-                self.break_and_draw(scene, fresh, table, bytes(flipped))
+            broken = [whole[:len(whole) // 2], self.flip(whole, len(whole) - 1), b""]
+            if not IS_SLOW:
+                broken += [whole[:-1], whole + b"x"]
+                broken += [self.flip(whole, place) for place in [0, 9, len(whole) // 2]]
+            for content in broken:
+                self.break_and_draw(scene, fresh, table, content)
             self.assertEqual(table.read_bytes(), whole)
+
+    @staticmethod
+    def flip(whole, place):
+        flipped = bytearray(whole)
+        flipped[place] ^= 0x10
+        return bytes(flipped)
 
     def break_and_draw(self, scene, fresh, table, content):
         table.write_bytes(content)
