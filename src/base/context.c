@@ -208,7 +208,8 @@ char *mem_printf(const trl_context *ctx, const char *format, ...)
     va_copy(again, args);
     const int length = vsnprintf(NULL, 0, format, args);
     va_end(args);
-    char *text = mem_alloc(ctx, (size_t)length + 1, 1);
+    // A negative length is a format that the C library refuses; there is none in this tree.
+    char *text = length < 0 ? NULL : mem_alloc(ctx, (size_t)length + 1, 1);
     if (text) {
         vsnprintf(text, (size_t)length + 1, format, again);
     }

@@ -260,7 +260,7 @@ void band_fit_choose(const struct band_fit *fit, struct bands *out)
         }
     }
     if (spectra > 0 && best < INFINITY) {
-        out->rms_error = sqrt(best / spectra);
+        out->rms_error = sqrt(best / (double)spectra);
         derive_albedo(out);
     } else {
         choose_few(fit, out);

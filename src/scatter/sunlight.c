@@ -120,6 +120,7 @@ static void fill_table(struct sunlight *sun, const struct columns *columns,
 {
     struct gauss rule;
     gauss_init(&rule, DISC_NODES);
+    (void)scratch_count; // without OpenMP there is one
 #pragma omp parallel for schedule(dynamic) num_threads(scratch_count)
     for (int level = 0; level < LEVELS; level++) {
         const unsigned state = lanes_flush_denormals();
