@@ -7,7 +7,7 @@
 
 // Moments of the phase function beyond lmax are dropped; what they would scatter a second time is
 // about the constituent's optical depth times the first moment dropped, below this.
-static const double DROPPED_MOMENT[] = {[SOLVER_INTERACTIVE] = 0.01, [SOLVER_PRECISE] = 0.003};
+static const double DROPPED_MOMENT[] = {[SOLVER_INTERACTIVE] = 0.01, [SOLVER_PRECISE] = 0.005};
 
 enum { MIN_ORDERS = 4 };          // fewer show no ratio of a series
 static const double DARK = 1e-20; // radiance per unit irradiance that nobody will see
@@ -37,18 +37,15 @@ struct solver_settings solver_settings_choose(const struct optics *optics,
     const bool is_precise = quality == SOLVER_PRECISE;
     const double thick = fmin(depth, 40);
     const int lmax = choose_degree(optics, DROPPED_MOMENT[quality]);
-    return (struct solver_settings){
-        .lmax = lmax,
-        .levels = (is_precise ? 44 : 28) + (int)((is_precise ? 16 : 8) * thick),
-        .suns = is_precise ? 128 : 80,
-        .zeniths = (is_precise ? 8 : 5) + lmax / 2,
-        .azimuths = lmax < 5   ? 5
-                    : lmax > 6 ? lmax - 1
-                               : 6,
-        .first_refinement = is_precise ? 3 : 2,
-        .nodes_per_shell = (is_precise ? 10 : 8) + (is_precise ? 16 : 12) * thick,
-        .max_orders = 2000,
-        .tolerance = is_precise ? 2e-4 : 1e-3};
+    return (struct solver_settings){.lmax = lmax,
+                                    .levels = (is_precise ? 38 : 28) + (int)(12 * thick),
+                                    .suns = is_precise ? 72 : 56,
+                                    .zeniths = (is_precise ? 7 : 5) + lmax / 2,
+                                    .azimuths = lmax < 6 ? 5 : lmax - 1,
+                                    .first_refinement = 2,
+                                    .nodes_per_shell = (is_precise ? 10 : 8) + 12 * thick,
+                                    .max_orders = 2000,
+                                    .tolerance = is_precise ? 2e-4 : 1e-3};
 }
 
 // Directions at one level: zenith cosines on both sides of the geometric horizon, denser toward it,

@@ -24,7 +24,7 @@ trl_result transport_scratch_create(const trl_context *ctx, int max_count, int s
         return TRL_ERROR_MEMORY;
     }
     struct transport_scratch *s = *out;
-    const size_t row = (size_t)suns * (OPTICS_MAX_DEGREE + 1);
+    const size_t row = (size_t)(suns + 2) * (OPTICS_MAX_DEGREE + 1); // a guard row at each end
     s->max_count = max_count;
     s->sun_mu = mem_alloc(ctx, (size_t)max_count, sizeof *s->sun_mu);
     s->cos_azimuth = mem_alloc(ctx, (size_t)max_count, sizeof *s->cos_azimuth);
@@ -221,20 +221,34 @@ LANES_INLINE void fill_source_row(const struct moments *m, const struct ray_node
     }
 }
 
-// cos(m phi) by Chebyshev's recurrence, summed with the interpolated harmonics.
+// Catmull-Rom weights of the four neighbours: twilight falls by a factor from sun to sun, and a straight line
+// through two points of an exponential lies above it, at every order of scattering anew.
+struct cubic {
+    float weight[4];
+};
+
+LANES_INLINE struct cubic cubic_at(float part)
+{
+    const float rest = 1.0f - part;
+    return (struct cubic){{-0.5f * part * rest * rest, 1.0f - part * part * (2.5f - 1.5f * part),
+                           1.0f - rest * rest * (2.5f - 1.5f * rest), -0.5f * rest * part * part}};
+}
+
+// Adds the interpolated harmonics times cos(m phi), by Chebyshev's recurrence. Row -1 is there.
 LANES_INLINE void add_source(const struct transport_scratch *s, int count, int orders,
-                             lanes *restrict radiance)
+                             const lanes *row, lanes *restrict radiance)
 {
     for (int t = 0; t < count; t++) {
-        const lanes *below = s->row + s->index[t] * orders;
-        const lanes *above = below + orders;
-        const float part = s->part[t];
+        const lanes *at = row + (s->index[t] - 1) * orders;
+        const struct cubic c = cubic_at(s->part[t]);
         const float twice = 2.0f * s->cos_azimuth[t];
-        float before = 1.0f;
-        float now = s->cos_azimuth[t];
-        lanes sum = below[0] + (above[0] - below[0]) * part;
-        for (int o = 1; o < orders; o++) {
-            sum += (below[o] + (above[o] - below[o]) * part) * now;
+        float before = s->cos_azimuth[t]; // cos(-phi)
+        float now = 1.0f;
+        lanes sum = {0};
+        for (int o = 0; o < orders; o++, at++) {
+            sum += (at[0] * c.weight[0] + at[orders] * c.weight[1] + at[2 * orders] * c.weight[2] +
+                    at[3 * orders] * c.weight[3]) *
+                   now;
             const float next = twice * now - before;
             before = now;
             now = next;
@@ -243,22 +257,39 @@ LANES_INLINE void add_source(const struct transport_scratch *s, int count, int o
     }
 }
 
+// Rows beyond the ends go on straight.
+LANES_INLINE void fill_guards(lanes *row, int suns, int orders)
+{
+    for (int o = 0; o < orders; o++) {
+        row[o - orders] = 2.0f * row[o] - row[o + orders];
+        row[suns * orders + o] = 2.0f * row[(suns - 1) * orders + o] - row[(suns - 2) * orders + o];
+    }
+}
+
 LANES_CLONES void transport_add_multiple(const struct moments *moments, const struct ray *ray,
                                          const struct transport_family *family, lanes *radiance,
                                          struct transport_scratch *s)
 {
+    const int suns = moments->suns;
+    const int orders = moments->lmax + 1;
+    lanes *row = s->row + orders;
     for (int k = ray->first_node; k < ray->node_count; k++) {
         const struct ray_node *node = &ray->node[k];
         const lanes attenuation = attenuation_to_eye(moments->optics, node->column_m);
         place_in_moments(moments, ray, node, family, s);
-        int first = moments->suns;
+        int first = suns;
         int last = 0;
         for (int t = 0; t < family->count; t++) {
             first = s->index[t] < first ? s->index[t] : first;
             last = s->index[t] > last ? s->index[t] : last;
         }
-        fill_source_row(moments, node, &attenuation, first, last + 1, s->row);
-        add_source(s, family->count, moments->lmax + 1, radiance);
+        first = first > 0 ? first - 1 : 0;
+        last = last < suns - 2 ? last + 2 : suns - 1;
+        fill_source_row(moments, node, &attenuation, first, last, row);
+        if (first < 2 || last > suns - 3) {
+            fill_guards(row, suns, orders);
+        }
+        add_source(s, family->count, orders, row, radiance);
     }
 }
 
