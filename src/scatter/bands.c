@@ -259,8 +259,8 @@ void band_fit_choose(const struct band_fit *fit, struct bands *out)
             }
         }
     }
-    if (spectra > 0 && best < INFINITY) {
-        out->rms_error = sqrt(best / (double)spectra);
+    if (spectra > 0 && best < HUGE_VAL) {
+        out->rms_error = sqrt(best / spectra);
         derive_albedo(out);
     } else {
         choose_few(fit, out);
