@@ -18,8 +18,9 @@ uniform vec4 u_eye;         // radius, altitude, cosine of the star's zenith ang
 uniform vec4 u_planet;      // ground radius, height of the air, half chord of the air over the horizon
 uniform vec4 u_rows;        // nearest, farthest, horizon mu, highest mu
 uniform vec4 u_sun_grid;    // centre, width, first, last: see sky_map_sun
-uniform vec3 u_slice_size;  // azimuths, suns, views
-uniform vec4 u_aerial_size; // depths, azimuths, rows on the ground, rows in all
+uniform vec3 u_slice_texel; // 1 over azimuths, suns, views
+uniform vec3 u_aerial_texel; // 1 over depths, azimuths, rows
+uniform vec2 u_aerial_rows; // on the ground, in all
 
 uniform sampler3D u_slice0;
 uniform sampler3D u_scattered0;
@@ -94,10 +95,10 @@ float azimuth_coordinate(float mu, float sun_mu, float nu)
     return sky_map_azimuth(clamp((nu - mu * sun_mu) / sines, -1.0, 1.0));
 }
 
-// From [0, 1] to texel centres.
-float centre(float coordinate, float size)
+// From [0, 1] to the centres of the first and the last texel; `texel` is 1 over their number.
+float centre(float coordinate, float texel)
 {
-    return (coordinate * (size - 1.0) + 0.5) / size;
+    return coordinate + (0.5 - coordinate) * texel;
 }
 
 // Joins the channels: the first is stored without the Rayleigh phase function, the peaked ones
@@ -105,7 +106,7 @@ float centre(float coordinate, float size)
 #if PEAKED_COUNT > 0
 vec4 peaked_phase(float nu)
 {
-    return textureLod(u_phase, vec2(centre(sqrt(max(0.5 - 0.5 * nu, 0.0)), 1024.0), 0.5), 0.0);
+    return textureLod(u_phase, vec2(centre(sqrt(max(0.5 - 0.5 * nu, 0.0)), 1.0 / 1024.0), 0.5), 0.0);
 }
 #endif
 
@@ -158,8 +159,8 @@ vec3 sky_light(Ray ray)
     float view = sky_map_view(way, shortest, longest);
     // Inside, the slice has one sun.
     float sun = outside ? sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w) : 0.0;
-    vec3 at = vec3(centre(azimuth_coordinate(mu, sun_mu, ray.nu), u_slice_size.x),
-                   centre(sun, u_slice_size.y), centre(view, u_slice_size.z));
+    vec3 at = vec3(centre(azimuth_coordinate(mu, sun_mu, ray.nu), u_slice_texel.x),
+                   centre(sun, u_slice_texel.y), centre(view, u_slice_texel.z));
     return ray.chord_m > 0.0 ? join_slice(at, ray.nu) : vec3(0.0);
 }
 
@@ -172,13 +173,13 @@ struct Air {
 Air air_before(Ray ray, float distance_m)
 {
     float row = ray.meets_ground
-                    ? sky_map_ground_row(ray.ground_m, u_rows.x, u_rows.y) * (u_aerial_size.z - 1.0)
-                    : u_aerial_size.z + sky_map_air_row(ray.mu, u_rows.z, u_rows.w) *
-                                            (u_aerial_size.w - u_aerial_size.z - 1.0);
+                    ? sky_map_ground_row(ray.ground_m, u_rows.x, u_rows.y) * (u_aerial_rows.x - 1.0)
+                    : u_aerial_rows.x + sky_map_air_row(ray.mu, u_rows.z, u_rows.w) *
+                                            (u_aerial_rows.y - u_aerial_rows.x - 1.0);
     float depth = sky_map_depth(distance_m, ray.begin_m, ray.end_m);
     float azimuth = azimuth_coordinate(ray.mu, u_eye.z, ray.nu);
-    vec3 at = vec3(centre(depth, u_aerial_size.x), centre(azimuth, u_aerial_size.y),
-                   (row + 0.5) / u_aerial_size.w);
+    vec3 at = vec3(centre(depth, u_aerial_texel.x), centre(azimuth, u_aerial_texel.y),
+                   (row + 0.5) * u_aerial_texel.z);
     float way = clamp(distance_m, ray.begin_m, max(ray.end_m * 1.2, distance_m)) - ray.begin_m;
     Air air;
     air.scattered = join_scattered(at, ray.nu) * way;

@@ -11,9 +11,9 @@
 
 in vec2 v_uv;
 
-uniform vec4 u_ground_light; // lowest and highest tabulated altitude, softness, altitudes
-uniform vec4 u_disc;         // cosine and sine of the angular radius, pixel angle, suns in u_sunlight
-uniform float u_skylight_suns;
+uniform vec4 u_ground_light; // lowest and highest tabulated altitude, softness, 1 over altitudes
+uniform vec4 u_disc;         // cosine and sine of the angular radius, pixel angle, 1 over suns in u_sunlight
+uniform float u_skylight_texel; // 1 over suns in u_skylight
 uniform sampler2D u_sunlight;
 uniform sampler2D u_skylight;
 uniform vec4 u_ground_albedo; // in the bands, of the bare sphere and of the land around
@@ -22,9 +22,9 @@ uniform vec4 u_ground_albedo; // in the bands, of the bare sphere and of the lan
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
 uniform sampler2D u_albedo;   // square root of linear sRGB
 uniform sampler2D u_normal;   // xyz unit; w how much of the star terrain leaves
-uniform sampler2D u_lights;   // square root of linear sRGB, luminance 1 is u_lights_cd_m2
+uniform sampler2D u_lights;   // square root of linear sRGB
 uniform vec4 u_bands_from_rgb[3]; // columns
-uniform vec4 u_bands_of_light[3]; // columns: bands that show this colour in cd m^-2
+uniform vec4 u_bands_of_light[3]; // columns: bands that show lights of this colour
 #endif
 
 layout(location = 0) out vec4 out_radiance;
@@ -56,7 +56,7 @@ vec4 light_ground(Ray ray, Ground ground)
     float sun = sky_map_sunlight(sun_mu, lowest, u_ground_light.z);
     vec4 star = textureLod(u_sunlight, vec2(centre(sun, u_disc.w), altitude), 0.0);
     float day = sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w);
-    vec4 sky = textureLod(u_skylight, vec2(centre(day, u_skylight_suns), altitude), 0.0);
+    vec4 sky = textureLod(u_skylight, vec2(centre(day, u_skylight_texel), altitude), 0.0);
     // A slope sees a part of the sky, and for the rest the ground around it.
     float open = 0.5 + 0.5 * dot(ground.normal, up);
     vec4 around = u_ground_albedo * (star * disc_cosine(sun_mu, u_disc.y) + sky);

@@ -11,7 +11,7 @@
 in vec2 v_uv;
 
 #ifdef STAR
-uniform vec4 u_disc; // cosine and sine of the angular radius, pixel angle, suns in u_sunlight
+uniform vec4 u_disc; // cosine and sine of the angular radius, pixel angle
 #endif
 
 layout(location = 0) out vec4 out_radiance;

@@ -54,9 +54,21 @@ static trl_result make_passes(struct ground *ground, double sun_angular_radius_r
     return result;
 }
 
+// All lights share a buffer, and with it the scale of the brightest layer.
+static double find_lights(const struct trl_scene *scene)
+{
+    double brightest_cd_m2 = 0;
+    for (size_t i = 0; i < scene->layer_count; i++) {
+        if (scene->layers[i].kind == LAYER_LIGHTS) {
+            brightest_cd_m2 = fmax(brightest_cd_m2, scene->layers[i].radiance_cd_m2);
+        }
+    }
+    return brightest_cd_m2;
+}
+
 trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene, struct ground *out)
 {
-    *out = (struct ground){.gpu = gpu};
+    *out = (struct ground){.gpu = gpu, .lights_cd_m2 = find_lights(scene)};
     trl_result result = load_surface(gpu, scene, &out->surface);
     out->is_bare = result == TRL_OK && !surface_has_layers(&out->surface);
     if (result == TRL_OK && !out->is_bare) {
@@ -173,12 +185,13 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
 struct sky_surface ground_surface(const struct ground *ground)
 {
     if (ground->is_bare) {
-        return (struct sky_surface){NULL, NULL, NULL, NULL};
+        return (struct sky_surface){0};
     }
     return (struct sky_surface){.position = &ground->position,
                                 .albedo = &ground->albedo,
                                 .normal = &ground->normal,
-                                .lights = &ground->lights};
+                                .lights = &ground->lights,
+                                .lights_cd_m2 = ground->lights_cd_m2};
 }
 
 double ground_altitude_m(const struct ground *ground, double latitude_rad, double longitude_rad)

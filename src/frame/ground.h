@@ -22,6 +22,7 @@
 struct ground {
     struct gpu *gpu;
     bool is_bare;
+    double lights_cd_m2; // luminance of white in `lights`
     struct surface surface;
     struct mesher *mesher; // NULL when bare, as the two passes below
     struct terrain_shadow shadow;

@@ -293,30 +293,22 @@ static void set_view(const struct sky *sky, struct gpu_program *program,
              sky->aerial.horizon_mu, sky->aerial.highest_mu);
     const double disc_rad = sky->atmosphere->solution.sun.disc_rad;
     set_vec4(program, "u_disc", cos(disc_rad), sin(disc_rad),
-             2 * camera->tan_half_fov_y / target->height, GROUND_LIGHT_SUNS);
-    set_vec4(program, "u_ground_light", 0, sky->highest_m, SUNLIGHT_SOFT, GROUND_LIGHT_ALTITUDES);
+             2 * camera->tan_half_fov_y / target->height, 1.0 / GROUND_LIGHT_SUNS);
+    set_vec4(program, "u_ground_light", 0, sky->highest_m, SUNLIGHT_SOFT,
+             1.0 / GROUND_LIGHT_ALTITUDES);
 }
 
 // Columns of the matrices of the bands, as the shader multiplies them.
 static void set_colours(const struct sky *sky, struct gpu_program *program)
 {
     const struct bands *b = &sky->atmosphere->bands;
-    float white[3];
     float rgb_from_xyz[12] = {0};
     float rgb_from_bands[12];
     float bands_from_rgb[12];
-    float bands_of_light[12];
     for (int k = 0; k < 3; k++) {
-        white[k] = 0;
         for (int r = 0; r < BAND_COUNT; r++) {
-            white[k] += b->rgb_from_bands[k][r];
             rgb_from_bands[4 * k + r] = b->rgb_from_bands[k][r];
-        }
-    }
-    for (int k = 0; k < 3; k++) {
-        for (int r = 0; r < BAND_COUNT; r++) {
             bands_from_rgb[4 * k + r] = b->bands_from_rgb[r][k];
-            bands_of_light[4 * k + r] = white[k] > 0 ? b->bands_from_rgb[r][k] / white[k] : 0;
         }
     }
     for (int k = 0; k < 3; k++) {
@@ -327,24 +319,43 @@ static void set_colours(const struct sky *sky, struct gpu_program *program)
     gpu_program_set_vec4s(program, "u_rgb_from_xyz", rgb_from_xyz, 3);
     gpu_program_set_vec4s(program, "u_rgb_from_bands", rgb_from_bands, 3);
     gpu_program_set_vec4s(program, "u_bands_from_rgb", bands_from_rgb, 3);
-    gpu_program_set_vec4s(program, "u_bands_of_light", bands_of_light, 3);
     const lanes *albedo = &sky->atmosphere->optics->ground_albedo;
     set_vec4(program, "u_ground_albedo", (double)(*albedo)[b->lane[0]],
              (double)(*albedo)[b->lane[1]], (double)(*albedo)[b->lane[2]],
              (double)(*albedo)[b->lane[3]]);
 }
 
+// Lights at night: white shows `white_cd_m2`.
+static void set_lights(const struct sky *sky, struct gpu_program *program, double white_cd_m2)
+{
+    const struct bands *b = &sky->atmosphere->bands;
+    float bands_of_light[12];
+    for (int k = 0; k < 3; k++) {
+        double star_cd_m2 = 0; // what all bands together show
+        for (int r = 0; r < BAND_COUNT; r++) {
+            star_cd_m2 += (double)b->rgb_from_bands[k][r];
+        }
+        const double scale = star_cd_m2 > 0 ? white_cd_m2 / star_cd_m2 : 0;
+        for (int r = 0; r < BAND_COUNT; r++) {
+            bands_of_light[4 * k + r] = (float)(scale * (double)b->bands_from_rgb[r][k]);
+        }
+    }
+    gpu_program_set_vec4s(program, "u_bands_of_light", bands_of_light, 3);
+}
+
 static void set_maps(const struct sky *sky, struct gpu_program *program)
 {
     const struct table *table = &sky->atmosphere->table;
-    const float size[3] = {(float)table->size.azimuths, (float)table->size.suns,
-                           (float)table->size.views};
-    gpu_program_set_vec3(program, "u_slice_size", size);
-    set_vec4(program, "u_aerial_size", AERIAL_DEPTHS, AERIAL_AZIMUTHS, AERIAL_GROUND_ROWS,
-             AERIAL_ROWS);
+    const float aerial_rows[2] = {AERIAL_GROUND_ROWS, AERIAL_ROWS};
+    set_vec3(
+        program, "u_slice_texel",
+        (struct vec3){1.0 / table->size.azimuths, 1.0 / table->size.suns, 1.0 / table->size.views});
+    set_vec3(program, "u_aerial_texel",
+             (struct vec3){1.0 / AERIAL_DEPTHS, 1.0 / AERIAL_AZIMUTHS, 1.0 / AERIAL_ROWS});
+    gpu_program_set_vec2(program, "u_aerial_rows", aerial_rows);
     set_vec4(program, "u_sun_grid", table->sun_centre, table->sun_width, table->sun_first,
              table->sun_last);
-    gpu_program_set_float(program, "u_skylight_suns", (float)sky->skylight.width);
+    gpu_program_set_float(program, "u_skylight_texel", 1.0f / (float)sky->skylight.width);
     for (int c = 0; c < table->channels; c++) {
         gpu_program_set_texture(program, SLICE_NAMES[c], &sky->slice[c]);
         gpu_program_set_texture(program, SCATTERED_NAMES[c], &sky->scattered[c]);
@@ -422,6 +433,7 @@ trl_result sky_draw(struct sky *sky, const struct camera *camera, const struct s
         gpu_program_set_texture(&programs->ground, "u_albedo", surface->albedo);
         gpu_program_set_texture(&programs->ground, "u_normal", surface->normal);
         gpu_program_set_texture(&programs->ground, "u_lights", surface->lights);
+        set_lights(sky, &programs->ground, surface->lights_cd_m2);
     }
     const struct gpu_pass sort = {.target = target,
                                   .state = {.writes_depth = true, .hides_color = true},

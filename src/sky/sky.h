@@ -27,6 +27,7 @@
 struct sky_surface {
     const struct gpu_texture *position; // NULL: bare sphere, and the others too
     const struct gpu_texture *albedo, *normal, *lights;
+    double lights_cd_m2; // luminance of white lights
 };
 
 // What differs between a bare sphere and a surface.

@@ -32,7 +32,8 @@ static const char scene_format[] =
     "   \"exponent\": -4}}, \"profile\": {\"exponential\": {\"scale_height_m\": 8000}},"
     "  \"phase\": \"rayleigh\"}]},"
     " \"surface\": {\"layers\": [{\"elevation\": \"relief.png\", \"scale\": 30},"
-    "  {\"colour\": \"%s\", \"optional\": %s}]}}";
+    "  {\"colour\": \"%s\", \"optional\": %s},"
+    "  {\"lights\": \"lights.png\", \"radiance_cd_m2\": 3}]}}";
 
 static trl_scene *parse(struct fixture *f, const char *folder, const char *colour,
                         const char *is_optional)
@@ -68,6 +69,7 @@ static int set_up(void **state)
 {
     static const uint8_t high[3] = {100, 100, 100}, low[3] = {0, 0, 0};
     static const uint8_t green[3] = {20, 200, 20}, red[3] = {200, 20, 20};
+    static const uint8_t white[3] = {255, 255, 255};
     void *f = NULL;
     struct setup *s = calloc(1, sizeof *s);
     *state = s;
@@ -77,7 +79,7 @@ static int set_up(void **state)
     s->f = f;
     snprintf(s->folder, sizeof s->folder, "/tmp/terrella-ground-XXXXXX");
     if (!mkdtemp(s->folder) || write_map(s, "relief.png", high, low) ||
-        write_map(s, "colour.png", green, red)) {
+        write_map(s, "colour.png", green, red) || write_map(s, "lights.png", low, white)) {
         return 1;
     }
     s->scene = parse(s->f, s->folder, "colour.png", "false");
@@ -95,6 +97,8 @@ static int tear_down(void **state)
     snprintf(path, sizeof path, "%s/relief.png", s->folder);
     unlink(path);
     snprintf(path, sizeof path, "%s/colour.png", s->folder);
+    unlink(path);
+    snprintf(path, sizeof path, "%s/lights.png", s->folder);
     unlink(path);
     rmdir(s->folder);
     void *f = s->f;
@@ -124,8 +128,9 @@ static void cameras_stand_on_the_raster(void **state)
     assert_true(resolved.altitude_m > 2999 && resolved.altitude_m < 3002);
 }
 
-// Mean radiance looking straight down from 1000 km in full sunlight.
-static void look_down(const struct setup *s, double latitude_rad, double mean[3])
+// Mean radiance looking straight down from 1000 km.
+static void look_down(const struct setup *s, double latitude_rad, double sun_elevation_rad,
+                      double mean[3])
 {
     trl_view view = trl_view_default();
     view.latitude_rad = latitude_rad;
@@ -135,7 +140,7 @@ static void look_down(const struct setup *s, double latitude_rad, double mean[3]
     view.pitch_rad = -PI / 2;
     view.vertical_fov_rad = 0.2;
     view.sun_mode = TRL_SUN_LOCAL;
-    view.sun_latitude_or_elevation_rad = 1.2;
+    view.sun_latitude_or_elevation_rad = sun_elevation_rad;
     static float radiance[4 * WIDTH * HEIGHT];
     assert_int_equal(trl_renderer_draw(s->renderer, &view, WIDTH, HEIGHT, 0), TRL_OK);
     assert_int_equal(trl_renderer_read_radiance(s->renderer, radiance), TRL_OK);
@@ -152,10 +157,22 @@ static void colours_are_those_of_the_raster(void **state)
     // sRGB 200 is 0.58 of the light, 20 is 0.007. Thin air adds a hundredth or two, and the few
     // wavelengths of the pictures let a tenth of such a saturated colour cross over.
     double north[3], south[3];
-    look_down(*state, 0.8, north);
-    look_down(*state, -0.8, south);
+    look_down(*state, 0.8, 1.2, north);
+    look_down(*state, -0.8, 1.2, south);
     assert_true(north[1] > 5 * north[0] && north[1] > 5 * north[2]);
     assert_true(south[0] > 5 * south[1] && south[0] > 5 * south[2]);
+}
+
+static void lights_at_night_are_as_bright_as_the_scene_says(void **state)
+{
+    double north[3], south[3];
+    look_down(*state, 0.8, -1.2, north);
+    look_down(*state, -0.8, -1.2, south);
+    for (size_t c = 0; c < 3; c++) {
+        // Thin air takes a hundredth. White of four bands is a few hundredths off in a component.
+        assert_true(fabs(south[c] - 3) < 0.15);
+        assert_true(north[c] < 1e-3);
+    }
 }
 
 static void a_missing_raster_is_one_line_unless_it_is_optional(void **state)
@@ -179,6 +196,7 @@ int main(void)
         cmocka_unit_test(altitudes_are_those_of_the_raster),
         cmocka_unit_test(cameras_stand_on_the_raster),
         cmocka_unit_test(colours_are_those_of_the_raster),
+        cmocka_unit_test(lights_at_night_are_as_bright_as_the_scene_says),
         cmocka_unit_test(a_missing_raster_is_one_line_unless_it_is_optional),
     };
     return cmocka_run_group_tests_name("ground", tests, set_up, tear_down);
