@@ -1,36 +1,34 @@
 #!/bin/bash
 # SPDX-FileCopyrightText: 2026 the Terrella authors
 # SPDX-License-Identifier: MIT
-# run-tests.sh BUILD_FOLDER: every test of the release build, then the cheap suites again with the address and
-# undefined-behaviour sanitizers. The last line is "N passed, N failed, N skipped". With CI set, a test that
-# skips fails: there, nothing may be missing.
+# run-tests.sh BUILD_FOLDER: every test of the release build, then what makes, reads and destroys things again with
+# the address and undefined-behaviour sanitizers. The last line is "N passed, N failed, N skipped". With CI set, a
+# test that skips fails: there, nothing may be missing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 release=$1
 sanitized=build/sanitize
-sanitized_suites=(base scene raster cli fuzz)
+# `objects` are tests of other suites that make and destroy much.
+sanitized_suites=(base scene raster gpu objects cli fuzz)
 
-run_suites() { # folder, meson test's options
+run_meson_test() { # folder, meson test's options
     local folder=$1
     shift
-    rm -f "$folder"/meson-logs/testlog.json
-    # Failures are counted from the log below, so the exit code is not needed; without a log it is an error.
+    local log=$folder/meson-logs/testlog.json
+    rm -f "$log"
+    # Failures are counted from the log, so the exit code is not needed; without a log it is an error.
     meson test -C "$folder" --no-rebuild --print-errorlogs "$@" || true
-    if [ ! -f "$folder/meson-logs/testlog.json" ]; then
+    if [ ! -s "$log" ]; then
         echo "tests: $folder ran no test" >&2
         exit 1
     fi
 }
 
-run_suites "$release"
+run_meson_test "$release"
 
 tools/build.sh "$sanitized" -Dbuildtype=debugoptimized -Db_sanitize=address,undefined -Db_lundef=false
 export ASAN_OPTIONS=${ASAN_OPTIONS:-abort_on_error=0:exitcode=99:detect_stack_use_after_return=1}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-halt_on_error=1:print_stacktrace=1}
-suites=()
-for suite in "${sanitized_suites[@]}"; do
-    suites+=(--suite "$suite")
-done
-run_suites "$sanitized" "${suites[@]}" --timeout-multiplier 4
+run_meson_test "$sanitized" --timeout-multiplier 4 "${sanitized_suites[@]/#/--suite=}"
 
 exec python3 tools/count-tests.py "$release/meson-logs/testlog.json" "$sanitized/meson-logs/testlog.json"
