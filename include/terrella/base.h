@@ -8,12 +8,13 @@
 ///
 /// - SI units; wavelengths in nm; angles in radians (degrees only where a name ends in `_deg`).
 /// - Radiance in W m^-2 sr^-1 nm^-1; colours are linear sRGB primaries in cd m^-2.
-/// - Planet frame: right-handed, origin at the planet's centre, z to the north pole, x to longitude 0.
+/// - Planet frame: right-handed, origin at the planet's centre, z to the north pole, x to
+///   longitude 0.
 /// - Zenith angle 0 is up; azimuth 0 is toward the sun.
 /// - Matrices are column-major and named `dest_from_source`; depth is reversed (1 near, 0 far).
 /// - Descriptions (`*_desc`) and strings passed in need to live only until the call returns.
-/// - `create` makes an object that the caller owns and must `destroy`; destroy takes the address, writes
-///   NULL there, and accepts NULL in it. Children must be destroyed before their parents.
+/// - `create` makes an object that the caller owns and must `destroy`; destroy takes the address,
+///   writes NULL there, and accepts NULL in it. Children must be destroyed before their parents.
 
 #include <stdbool.h>
 #include <stddef.h>

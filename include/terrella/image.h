@@ -9,7 +9,8 @@ TRL_BEGIN
 
 /// Writes an 8-bit sRGB PNG, whole or not at all.
 /// @param rgba  width x height x 4 bytes, top row first; alpha is ignored
-/// @return TRL_OK; TRL_ERROR_INVALID (a size of 0); TRL_ERROR_IO (cannot be written); TRL_ERROR_MEMORY
+/// @return TRL_OK; TRL_ERROR_INVALID (a size of 0); TRL_ERROR_IO (cannot be written);
+/// TRL_ERROR_MEMORY
 TRL_API TRL_MUST_USE trl_result trl_image_write_png(trl_context *ctx, const char *path,
                                                     uint32_t width, uint32_t height,
                                                     const uint8_t *rgba);

@@ -14,7 +14,8 @@ typedef struct trl_scene trl_scene;
 /// Whether altitudes of a camera count from the reference sphere or from the ground below it.
 typedef enum trl_altitude_mode { TRL_ALTITUDE_SPHERE, TRL_ALTITUDE_GROUND } trl_altitude_mode;
 
-/// Where the star stands: a point of the planet over which it is at the zenith, or as the camera sees it.
+/// Where the star stands: a point of the planet over which it is at the zenith, or as the camera
+/// sees it.
 typedef enum trl_sun_mode { TRL_SUN_SUBSOLAR, TRL_SUN_LOCAL } trl_sun_mode;
 
 typedef enum trl_tone_curve {
@@ -28,29 +29,32 @@ typedef struct trl_view {
     double longitude_rad; ///< east positive
     double altitude_m;    ///< of the camera, see altitude_mode
     trl_altitude_mode altitude_mode;
-    double heading_rad;     ///< clockwise from north
-    double pitch_rad;       ///< above the horizontal; -pi/2 looks straight down
-    double roll_rad;        ///< clockwise about the line of sight
+    double heading_rad;      ///< clockwise from north
+    double pitch_rad;        ///< above the horizontal; -pi/2 looks straight down
+    double roll_rad;         ///< clockwise about the line of sight
     double vertical_fov_rad; ///< (0, pi)
     trl_sun_mode sun_mode;
-    double sun_latitude_or_elevation_rad; ///< subsolar latitude, or elevation above the camera's horizontal
+    double sun_latitude_or_elevation_rad; ///< subsolar latitude, or elevation above the camera's
+                                          ///< horizontal
     double sun_longitude_or_azimuth_rad;  ///< subsolar longitude, or azimuth clockwise from north
-    bool has_fixed_exposure; ///< else exposure is found from the picture
-    double exposure_ev100;   ///< exposure value at ISO 100, when fixed
-    double exposure_bias_ev; ///< added brightness in stops, both modes
+    bool has_fixed_exposure;              ///< else exposure is found from the picture
+    double exposure_ev100;                ///< exposure value at ISO 100, when fixed
+    double exposure_bias_ev;              ///< added brightness in stops, both modes
     trl_tone_curve tone_curve;
 } trl_view;
 
-/// Over the planet's middle from 3 radii, half lit, 40 degrees of view, automatic exposure. Threads: any.
+/// Over the planet's middle from 3 radii, half lit, 40 degrees of view, automatic exposure.
+/// Threads: any.
 TRL_API trl_view trl_view_default(void);
 
-/// Reads a scene file (JSON; docs/scenes.md). Errors name file, line, column and the path of the key.
+/// Reads a scene file (JSON; docs/scenes.md). Errors name file, line, column and the path of the
+/// key.
 /// @param[out] out  new scene, or NULL on failure
 /// @return TRL_OK; TRL_ERROR_IO (cannot be read); TRL_ERROR_INVALID (its content); TRL_ERROR_MEMORY
 TRL_API TRL_MUST_USE trl_result trl_scene_load(trl_context *ctx, const char *path, trl_scene **out);
 
-/// Reads a scene from memory. `name` stands for the file in messages; files it names are looked for in
-/// `base_dir`, then in the context's data folder.
+/// Reads a scene from memory. `name` stands for the file in messages; files it names are looked for
+/// in `base_dir`, then in the context's data folder.
 /// @return as trl_scene_load
 TRL_API TRL_MUST_USE trl_result trl_scene_parse(trl_context *ctx, const char *text, size_t length,
                                                 const char *name, const char *base_dir,

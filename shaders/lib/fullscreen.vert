@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// One triangle that covers the viewport; needs no vertex data. Depth 0: infinitely far in reversed depth.
+// One triangle that covers the viewport; needs no vertex data. Depth 0: infinitely far in reversed
+// depth.
 
 out vec2 v_uv; // (0, 0) lower left, (1, 1) upper right
 

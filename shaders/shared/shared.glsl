@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: MIT
 #ifndef SHARED_SHARED_GLSL
 #define SHARED_SHARED_GLSL
-// What makes one text valid C11, C++17 and GLSL. Every file of shaders/shared/ includes this one first:
+// What makes one text valid C11, C++17 and GLSL. Every file of shaders/shared/ includes this one
+// first:
 //
 //     #include "shared/shared.glsl"
 //     SHARED_FN Number phase_rayleigh(Number cos_angle) { ... }
 //
-// Rules: scalars and plain structs only (no vectors, overloads, `out` parameters or array parameters); literals
-// like 1.0; constants by #define; loops with constant bounds; none of the words half, input, output, filter,
-// common, active, this, template, sample; no two underscores in a row; no macro over several lines. C
-// calculates in double, GLSL in float.
+// Rules: scalars and plain structs only (no vectors, overloads, `out` parameters or array
+// parameters); literals like 1.0; constants by #define; loops with constant bounds; none of the
+// words half, input, output, filter, common, active, this, template, sample; no two underscores in
+// a row; no macro over several lines. C calculates in double, GLSL in float.
 //
-// Functions that have one name in both: sqrt exp log pow sin cos tan asin acos floor. For the others use
-// the shared_ ones below.
+// Functions that have one name in both: sqrt exp log pow sin cos tan asin acos floor. For the
+// others use the shared_ ones below.
 
 #ifdef TRL_GLSL // defined by gpu/program.c
 
@@ -31,18 +32,21 @@
 #define shared_clamp clamp
 #define shared_atan2(y, x) atan(y, x)
 
+// GLSL 330 knows no continued lines, not even where it skips them, and the formatter makes them.
+// clang-format off
 #define SHARED_BLOCK(name) layout(std140) uniform name {
 #define SHARED_MAT4(name) mat4 name;
 #define SHARED_VEC4(name) vec4 name;
 #define SHARED_VEC4_ARRAY(name, count) vec4 name[count];
 #define SHARED_BLOCK_END(name) };
+// clang-format on
 
 #else // C and C++
 
 #include <math.h>
 
 #define SHARED_FN static inline
-// clang-format off: GLSL 330 knows no continued lines, not even where it skips them
+// clang-format off
 #define SHARED_STRUCT(name) typedef struct name name; struct name
 // clang-format on
 typedef double Number;
@@ -60,17 +64,20 @@ static inline Number shared_clamp(Number value, Number low, Number high)
     return fmin(fmax(value, low), high);
 }
 
-// Members are of 16 or 64 bytes, so that the struct has the layout of std140 without rules to remember:
+// Members are of 16 or 64 bytes, so that the struct has the layout of std140 without rules to
+// remember:
 //     SHARED_BLOCK(FrameBlock)
 //     SHARED_MAT4(clip_from_view)
 //     SHARED_VEC4(sun_direction)
 //     SHARED_BLOCK_END(FrameBlock)
 // gives C `struct FrameBlock` for gpu_buffer_update.
+// clang-format off
 #define SHARED_BLOCK(name) struct name {
 #define SHARED_MAT4(name) float name[16];
 #define SHARED_VEC4(name) float name[4];
 #define SHARED_VEC4_ARRAY(name, count) float name[(count)*4];
 #define SHARED_BLOCK_END(name) };
+// clang-format on
 
 #endif
 

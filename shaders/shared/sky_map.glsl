@@ -40,7 +40,8 @@ SHARED_FN Number sky_map_sun(Number mu, Number centre, Number width, Number firs
 
 // The cosine at which the disc's upper edge touches the horizon of a point, and the coordinate of
 // direct light above it: logarithmic, finest where the disc rises (softness is a cosine).
-SHARED_FN Number sky_map_lowest_sun(Length ground_radius, Length altitude, Number disc_cos, Number disc_sin)
+SHARED_FN Number sky_map_lowest_sun(Length ground_radius, Length altitude, Number disc_cos,
+                                    Number disc_sin)
 {
     Number ratio = ground_radius / (ground_radius + shared_max(altitude, 0.0));
     return -sqrt(shared_max(0.0, 1.0 - ratio * ratio)) * disc_cos - ratio * disc_sin;
@@ -48,7 +49,8 @@ SHARED_FN Number sky_map_lowest_sun(Length ground_radius, Length altitude, Numbe
 
 SHARED_FN Number sky_map_sunlight(Number mu, Number lowest, Number softness)
 {
-    return log(1.0 + shared_max(mu - lowest, 0.0) / softness) / log(1.0 + (1.0 - lowest) / softness);
+    return log(1.0 + shared_max(mu - lowest, 0.0) / softness) /
+           log(1.0 + (1.0 - lowest) / softness);
 }
 
 // The azimuth of a ray from the star's, by its cosine.
@@ -58,16 +60,18 @@ SHARED_FN Number sky_map_azimuth(Number cos_azimuth)
 }
 
 // Aerial perspective: rows of rays that meet the reference sphere, by the distance to it (nearest
-// at the nadir, farthest along the horizon); rows of rays that pass above, by mu between the horizon
-// and the highest ray; and the depth along a ray through the air, by the root of its share.
+// at the nadir, farthest along the horizon); rows of rays that pass above, by mu between the
+// horizon and the highest ray; and the depth along a ray through the air, by the root of its share.
 SHARED_FN Number sky_map_ground_row(Length distance, Length nearest, Length farthest)
 {
-    return sqrt(shared_clamp((distance - nearest) / shared_max(farthest - nearest, 1.0e-3), 0.0, 1.0));
+    return sqrt(
+        shared_clamp((distance - nearest) / shared_max(farthest - nearest, 1.0e-3), 0.0, 1.0));
 }
 
 SHARED_FN Number sky_map_air_row(Number mu, Number horizon_mu, Number highest_mu)
 {
-    return sqrt(shared_clamp((mu - horizon_mu) / shared_max(highest_mu - horizon_mu, 1.0e-9), 0.0, 1.0));
+    return sqrt(
+        shared_clamp((mu - horizon_mu) / shared_max(highest_mu - horizon_mu, 1.0e-9), 0.0, 1.0));
 }
 
 SHARED_FN Number sky_map_depth(Length distance, Length start, Length end)

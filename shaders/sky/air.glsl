@@ -10,17 +10,17 @@
 #include "shared/sky_map.glsl"
 
 uniform vec3 u_forward;
-uniform vec3 u_right;       // scaled to half the picture's width at distance 1
-uniform vec3 u_up;          // the same for its height
-uniform vec3 u_eye_up;      // unit, planet frame
-uniform vec3 u_sun;         // unit, toward the star
-uniform vec4 u_eye;         // radius, altitude, cosine of the star's zenith angle, is outside the air
-uniform vec4 u_planet;      // ground radius, height of the air, half chord of the air over the horizon
-uniform vec4 u_rows;        // nearest, farthest, horizon mu, highest mu
-uniform vec4 u_sun_grid;    // centre, width, first, last: see sky_map_sun
-uniform vec3 u_slice_texel; // 1 over azimuths, suns, views
+uniform vec3 u_right;    // scaled to half the picture's width at distance 1
+uniform vec3 u_up;       // the same for its height
+uniform vec3 u_eye_up;   // unit, planet frame
+uniform vec3 u_sun;      // unit, toward the star
+uniform vec4 u_eye;      // radius, altitude, cosine of the star's zenith angle, is outside the air
+uniform vec4 u_planet;   // ground radius, height of the air, half chord of the air over the horizon
+uniform vec4 u_rows;     // nearest, farthest, horizon mu, highest mu
+uniform vec4 u_sun_grid; // centre, width, first, last: see sky_map_sun
+uniform vec3 u_slice_texel;  // 1 over azimuths, suns, views
 uniform vec3 u_aerial_texel; // 1 over depths, azimuths, rows
-uniform vec2 u_aerial_rows; // on the ground, in all
+uniform vec2 u_aerial_rows;  // on the ground, in all
 
 uniform sampler3D u_slice0;
 uniform sampler3D u_scattered0;
@@ -44,11 +44,11 @@ uniform sampler2D u_phase; // sine of half the scattering angle x peaked constit
 // A straight ray from the eye against the planet and its air.
 struct Ray {
     vec3 direction;
-    float mu, nu;       // cosines of the angles to the zenith and to the star
-    bool meets_ground;  // of the reference sphere
-    float ground_m;     // distance to it, where it is met
+    float mu, nu;         // cosines of the angles to the zenith and to the star
+    bool meets_ground;    // of the reference sphere
+    float ground_m;       // distance to it, where it is met
     float begin_m, end_m; // of the part in the air, as if it ended at the sphere
-    float chord_m;      // half of the whole way through the air, from outside
+    float chord_m;        // half of the whole way through the air, from outside
 };
 
 Ray make_ray(vec3 direction)
@@ -64,8 +64,8 @@ Ray make_ray(vec3 direction)
     float along = r * ray.mu;
     float pass = r * length(cross(u_eye_up, direction));
     bool outside = u_eye.w > 0.5;
-    float to_ground = outside ? (ground - pass) * (ground + pass)
-                              : along * along - h * (2.0 * ground + h);
+    float to_ground =
+        outside ? (ground - pass) * (ground + pass) : along * along - h * (2.0 * ground + h);
     float to_top = outside ? (top - pass) * (top + pass)
                            : along * along + (u_planet.y - h) * (2.0 * ground + u_planet.y + h);
     ray.meets_ground = along < 0.0 && to_ground > 0.0;
@@ -106,7 +106,8 @@ float centre(float coordinate, float texel)
 #if PEAKED_COUNT > 0
 vec4 peaked_phase(float nu)
 {
-    return textureLod(u_phase, vec2(centre(sqrt(max(0.5 - 0.5 * nu, 0.0)), 1.0 / 1024.0), 0.5), 0.0);
+    return textureLod(u_phase, vec2(centre(sqrt(max(0.5 - 0.5 * nu, 0.0)), 1.0 / 1024.0), 0.5),
+                      0.0);
 }
 #endif
 
@@ -150,15 +151,15 @@ vec3 sky_light(Ray ray)
     float top = u_planet.x + u_planet.y;
     float rise = sqrt(max(u_eye.y * (2.0 * u_planet.x + u_eye.y), 0.0));
     float mu = outside ? -ray.chord_m / top : ray.mu;
-    float sun_mu = outside
-                       ? clamp((u_eye.x * u_eye.z + ray.begin_m * ray.nu) / top, -1.0, 1.0)
-                       : u_eye.z;
+    float sun_mu =
+        outside ? clamp((u_eye.x * u_eye.z + ray.begin_m * ray.nu) / top, -1.0, 1.0) : u_eye.z;
     float way = outside ? 2.0 * ray.chord_m : ray.chord_m - u_eye.x * ray.mu;
     float shortest = outside ? 0.0 : u_planet.y - u_eye.y;
     float longest = (outside ? u_planet.z : rise) + u_planet.z;
     float view = sky_map_view(way, shortest, longest);
     // Inside, the slice has one sun.
-    float sun = outside ? sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w) : 0.0;
+    float sun =
+        outside ? sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w) : 0.0;
     vec3 at = vec3(centre(azimuth_coordinate(mu, sun_mu, ray.nu), u_slice_texel.x),
                    centre(sun, u_slice_texel.y), centre(view, u_slice_texel.z));
     return ray.chord_m > 0.0 ? join_slice(at, ray.nu) : vec3(0.0);

@@ -12,17 +12,17 @@
 in vec2 v_uv;
 
 uniform vec4 u_ground_light; // lowest and highest tabulated altitude, softness, 1 over altitudes
-uniform vec4 u_disc;         // cosine and sine of the angular radius, pixel angle, 1 over suns in u_sunlight
+uniform vec4 u_disc; // cosine and sine of the disc's radius, pixel angle, 1 over suns in u_sunlight
 uniform float u_skylight_texel; // 1 over suns in u_skylight
 uniform sampler2D u_sunlight;
 uniform sampler2D u_skylight;
 uniform vec4 u_ground_albedo; // in the bands, of the bare sphere and of the land around
 
 #ifdef SURFACE
-uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
-uniform sampler2D u_albedo;   // square root of linear sRGB
-uniform sampler2D u_normal;   // xyz unit; w how much of the star terrain leaves
-uniform sampler2D u_lights;   // square root of linear sRGB
+uniform sampler2D u_position;     // xyz relative to the camera, m; w altitude, m, or below -1e8
+uniform sampler2D u_albedo;       // square root of linear sRGB
+uniform sampler2D u_normal;       // xyz unit; w how much of the star terrain leaves
+uniform sampler2D u_lights;       // square root of linear sRGB
 uniform vec4 u_bands_from_rgb[3]; // columns
 uniform vec4 u_bands_of_light[3]; // columns: bands that show lights of this colour
 #endif
@@ -49,9 +49,10 @@ vec4 light_ground(Ray ray, Ground ground)
 {
     vec3 up = normalize(u_eye_up * u_eye.x + ray.direction * ground.distance_m);
     float sun_mu = dot(up, u_sun);
-    float altitude = centre(clamp((ground.altitude_m - u_ground_light.x) /
-                                      (u_ground_light.y - u_ground_light.x), 0.0, 1.0),
-                            u_ground_light.w);
+    float altitude =
+        centre(clamp((ground.altitude_m - u_ground_light.x) / (u_ground_light.y - u_ground_light.x),
+                     0.0, 1.0),
+               u_ground_light.w);
     float lowest = sky_map_lowest_sun(u_planet.x, ground.altitude_m, u_disc.x, u_disc.y);
     float sun = sky_map_sunlight(sun_mu, lowest, u_ground_light.z);
     vec4 star = textureLod(u_sunlight, vec2(centre(sun, u_disc.w), altitude), 0.0);
@@ -81,11 +82,13 @@ Ground find_ground(out Ray ray)
     ground.distance_m = distance_m;
     ground.altitude_m = position.w;
     ground.normal = normal.xyz;
-    ground.albedo = max(u_bands_from_rgb[0] * rgb.r + u_bands_from_rgb[1] * rgb.g +
-                            u_bands_from_rgb[2] * rgb.b, vec4(0.0));
+    ground.albedo =
+        max(u_bands_from_rgb[0] * rgb.r + u_bands_from_rgb[1] * rgb.g + u_bands_from_rgb[2] * rgb.b,
+            vec4(0.0));
     ground.star_visible = normal.w;
-    ground.emitted = max(u_bands_of_light[0] * lit.r + u_bands_of_light[1] * lit.g +
-                             u_bands_of_light[2] * lit.b, vec4(0.0));
+    ground.emitted =
+        max(u_bands_of_light[0] * lit.r + u_bands_of_light[1] * lit.g + u_bands_of_light[2] * lit.b,
+            vec4(0.0));
     return ground;
 }
 #else

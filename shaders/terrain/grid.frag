@@ -24,9 +24,11 @@ void main()
     vec2 g = 2.0 * floor(gl_FragCoord.xy) / u_grid.x - 1.0;
     vec3 o = grid_direction(g);
     // The level of detail is that of the 2 x 2 pixels together: llvmpipe fetches one level for all
-    // of them. From a cell's longer side, toward the next ring: smaller ridges would show where they cross rings only.
+    // of them. From a cell's longer side, toward the next ring: smaller ridges would show where
+    // they cross rings only.
     vec2 quad = 4.0 * floor(0.5 * gl_FragCoord.xy) / u_grid.x - 1.0;
-    vec2 next = quad * (1.0 + 2.0 / (u_grid.x * max(max(abs(quad.x), abs(quad.y)), 1.0 / u_grid.x)));
+    vec2 next =
+        quad * (1.0 + 2.0 / (u_grid.x * max(max(abs(quad.x), abs(quad.y)), 1.0 / u_grid.x)));
     float cell = length(grid_direction(next) - grid_direction(quad)) * u_anchor.w;
     float h = terrain_altitude(geo_from_local(o, 1.0), log2(cell));
     vec3 offset = o * u_anchor.w + (o + vec3(0.0, 0.0, 1.0)) * h;

@@ -39,8 +39,8 @@ vec2 geo_from_local(vec3 o, float size)
     float axis_distance = length(vec2(inward, o.x));
     float versine = inward > 0.0 ? o.x * o.x / (axis_distance + inward) : axis_distance - inward;
     float along = up * u_anchor.x + o.y * u_anchor.y; // the axis
-    return vec2(atan(o.x, inward), atan(o.y - versine * u_anchor.x,
-                                        along * u_anchor.x + axis_distance * u_anchor.y));
+    return vec2(atan(o.x, inward),
+                atan(o.y - versine * u_anchor.x, along * u_anchor.x + axis_distance * u_anchor.y));
 }
 
 // A place stepped over a pole comes down the opposite meridian.

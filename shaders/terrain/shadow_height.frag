@@ -11,7 +11,8 @@ out vec2 o_shadow;
 void main()
 {
     vec3 o = map_direction(map_grid(gl_FragCoord.xy));
-    // Finer than a cell, since a filter cuts crests. One level of detail for 2 x 2 pixels, as llvmpipe fetches it.
+    // Finer than a cell, since a filter cuts crests. One level of detail for 2 x 2 pixels, as
+    // llvmpipe fetches it.
     vec2 quad = 2.0 * floor(0.5 * gl_FragCoord.xy) + 1.0;
     float cell = map_cell(map_grid(quad)) * u_anchor.w;
     o_shadow = vec2(terrain_altitude_linear(geo_from_local(o, 1.0), log2(0.25 * cell)), 0.0);

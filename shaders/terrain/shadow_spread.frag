@@ -7,7 +7,7 @@
 
 uniform sampler2D u_previous; // altitude of the shadow, m; distance to what casts it, m
 uniform vec3 u_sun;           // local frame
-uniform vec4 u_spread;        // step, m (last pass: in cells); 1 in the last pass; sphere's radius, m
+uniform vec4 u_spread; // step, m (last pass: in cells); 1 in the last pass; sphere's radius, m
 
 out vec2 o_shadow;
 

@@ -12,7 +12,7 @@ enum { CONTEXT_CANARY = 0x54435831, ALIGNMENT = 64, MESSAGE_MAX = 2048 };
 static void *c_allocate(void *user, size_t bytes)
 {
     (void)user;
-    return malloc(bytes);
+    return calloc(1, bytes); // large blocks come zeroed from the system, untouched
 }
 
 static void *c_reallocate(void *user, void *block, size_t bytes)
@@ -176,7 +176,9 @@ void *mem_alloc(const trl_context *ctx, size_t count, size_t size)
     char *block = raw + ALIGNMENT;
     block += (ALIGNMENT - (uintptr_t)block % ALIGNMENT) % ALIGNMENT;
     memcpy(block - sizeof raw, &raw, sizeof raw);
-    memset(block, 0, bytes);
+    if (ctx->desc.allocator.allocate != c_allocate) {
+        memset(block, 0, bytes);
+    }
     return block;
 }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #ifndef BASE_CONTEXT_H
 #define BASE_CONTEXT_H
-// The context as the library's own modules see it: the one birth place of errors, memory that can fail,
-// and progress.
+// The context as the library's own modules see it: the one birth place of errors, memory that can
+// fail, and progress.
 
 #include <terrella/context.h>
 
@@ -21,7 +21,8 @@ trl_fail(const trl_context *ctx, trl_result code, trl_log_item item, const char 
 __attribute__((format(printf, 4, 5))) void trl_log(const trl_context *ctx, trl_log_level level,
                                                    trl_log_item item, const char *format, ...);
 
-// Tells the user how far a stage is. Returns TRL_OK, or TRL_ERROR_CANCELLED (logged) when asked to stop.
+// Tells the user how far a stage is. Returns TRL_OK, or TRL_ERROR_CANCELLED (logged) when asked to
+// stop.
 TRL_MUST_USE trl_result trl_progress(const trl_context *ctx, const char *stage, double fraction);
 
 // `count` zeroed elements of `size` bytes, aligned to 64 bytes as vector code wants it.

@@ -6,7 +6,8 @@
 
 #include "base/context.h"
 
-// Reads at most `max_bytes`; the data gets a terminating 0 that `size` does not count. Free with mem_free.
+// Reads at most `max_bytes`; the data gets a terminating 0 that `size` does not count. Free with
+// mem_free.
 TRL_MUST_USE trl_result file_read(const trl_context *ctx, const char *path, size_t max_bytes,
                                   char **data, size_t *size);
 
@@ -16,7 +17,8 @@ struct file_replacement {
     char *temp_path;
 };
 
-// Names and creates the temporary file, so that an unwritable place is told before any work is done.
+// Names and creates the temporary file, so that an unwritable place is told before any work is
+// done.
 TRL_MUST_USE trl_result file_replacement_begin(const trl_context *ctx, const char *path,
                                                struct file_replacement *out);
 // Flushes to disk and renames over the final path; the replacement is finished either way.

@@ -34,8 +34,9 @@ LANES_INLINE lanes lanes_max(lanes a, lanes b)
     return (lanes)((is_a & (lanes_int)a) | (~is_a & (lanes_int)b));
 }
 
-// exp(x) for x <= 0 to a relative 3e-7; below -87 it is 0 within float range. Cody-Waite reduction by
-// log 2, degree 6. -ffast-math joins the two steps of the reduction and adds 1e-7 |x| to the error.
+// exp(x) for x <= 0 to a relative 3e-7; below -87 it is 0 within float range. Cody-Waite reduction
+// by log 2, degree 6. -ffast-math joins the two steps of the reduction and adds 1e-7 |x| to the
+// error.
 LANES_INLINE lanes lanes_exp_negative(lanes x)
 {
     x = lanes_max(x, lanes_set(-87.0f));

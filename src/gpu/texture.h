@@ -6,7 +6,8 @@
 //
 // Texels on the CPU side (upload and read) are tightly packed, row 0 at texture coordinate 0 (a
 // picture that is to be written top row first must be turned over). Components are uint8_t for the
-// 8-bit formats, uint16_t for R16, int16_t for R16I, float for all others, the 16-bit floats included.
+// 8-bit formats, uint16_t for R16, int16_t for R16I, float for all others, the 16-bit floats
+// included.
 
 #include "gpu/gpu.h"
 

@@ -5,9 +5,9 @@
 #include "gpu/internal.h"
 #include "gpu/target.h"
 
-// llvmpipe notes when a query begins in the tiles of the framebuffer that it drew to last. A context
-// without a window has none before its first clear or draw, and a query that begins before that
-// gives the time since the machine was started.
+// llvmpipe notes when a query begins in the tiles of the framebuffer that it drew to last. A
+// context without a window has none before its first clear or draw, and a query that begins before
+// that gives the time since the machine was started.
 static trl_result clear_something(struct gpu *gpu)
 {
     struct gpu_texture_desc desc = gpu_texture_desc_default();

@@ -221,8 +221,9 @@ LANES_INLINE void fill_source_row(const struct moments *m, const struct ray_node
     }
 }
 
-// Catmull-Rom weights of the four neighbours: twilight falls by a factor from sun to sun, and a straight line
-// through two points of an exponential lies above it, at every order of scattering anew.
+// Catmull-Rom weights of the four neighbours: twilight falls by a factor from sun to sun, and a
+// straight line through two points of an exponential lies above it, at every order of scattering
+// anew.
 struct cubic {
     float weight[4];
 };

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #ifndef SKY_SKY_H
 #define SKY_SKY_H
-// The sky pass: for every pixel either lit ground behind air, or sky with the star's disc. Pixels are
-// first sorted into ground, air and space, and each kind is drawn by a program of its own with a
-// depth test: a software rasteriser runs both sides of a branch.
+// The sky pass: for every pixel either lit ground behind air, or sky with the star's disc. Pixels
+// are first sorted into ground, air and space, and each kind is drawn by a program of its own with
+// a depth test: a software rasteriser runs both sides of a branch.
 //
 //     in   surface buffers (frame/ground.h), or none for a bare sphere
 //     in   slice      3D RGBA32F  azimuth x sun x view, the 4D table at the eye's altitude; inside

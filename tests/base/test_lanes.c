@@ -23,7 +23,8 @@ static void exp_of(const float *x, float *out)
 }
 
 // What the header promises: two or three of a float's last digits, 1.2e-7 of 1 each. With
-// -ffast-math x - n log 2 and log 2 itself are rounded at the size of x, which exp turns into a relative error.
+// -ffast-math x - n log 2 and log 2 itself are rounded at the size of x, which exp turns into a
+// relative error.
 static double error_allowed(double x)
 {
 #ifdef __FAST_MATH__

@@ -2,6 +2,4 @@
 // SPDX-License-Identifier: MIT
 
 #include "no/such/file.glsl"
-void main()
-{
-}
+void main() {}

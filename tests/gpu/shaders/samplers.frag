@@ -11,6 +11,7 @@ layout(location = 0) out vec4 o_color;
 
 void main()
 {
-    o_color = vec4(texture(u_image, v_uv).r, texture(u_volume, vec3(v_uv, 0.5)).r,
-                   texture(u_layers, vec3(v_uv, 1.0)).r, float(texelFetch(u_heights, ivec2(0), 0).r));
+    o_color =
+        vec4(texture(u_image, v_uv).r, texture(u_volume, vec3(v_uv, 0.5)).r,
+             texture(u_layers, vec3(v_uv, 1.0)).r, float(texelFetch(u_heights, ivec2(0), 0).r));
 }

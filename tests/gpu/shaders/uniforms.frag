@@ -17,7 +17,8 @@ layout(location = 0) out vec4 o_color;
 
 void main()
 {
-    o_color = vec4(u_float + float(u_int) + u_vec2.y, u_vec3.z + u_vec4.w, u_floats[2] + u_vec4s[1].x,
-                   (u_mat3 * vec3(0.0, 1.0, 0.0)).z + (u_mat4 * vec4(1.0, 0.0, 0.0, 0.0)).w);
+    o_color =
+        vec4(u_float + float(u_int) + u_vec2.y, u_vec3.z + u_vec4.w, u_floats[2] + u_vec4s[1].x,
+             (u_mat3 * vec3(0.0, 1.0, 0.0)).z + (u_mat4 * vec4(1.0, 0.0, 0.0, 0.0)).w);
     o_color += block_matrix * block_vector + block_array[1] * float(SCALE);
 }
