@@ -17,7 +17,12 @@ for view in "$@"; do
     took=$((($(date +%s%N) - began) / 100000000))
     echo "demo: $PWD/$picture in $((took / 10)).$((took % 10)) s"
 done
-if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && [ -z "${CI:-}" ]; then
+if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
     echo "demo: opening the viewer"
-    exec "$program" view scenes/earth.json
+    # Where nobody is there to close it, it closes itself.
+    limit=()
+    if [ -n "${CI:-}" ] || ! { [ -t 0 ] || [ -t 1 ]; }; then
+        limit=(--frames 30)
+    fi
+    exec "$program" view scenes/earth.json "${limit[@]}"
 fi
