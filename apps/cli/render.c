@@ -65,25 +65,15 @@ static enum options_outcome read_arguments(int argc, char **argv, struct render_
          .target.flag = &out->is_quiet,
          .help = "No progress line and no closing line."},
     };
-    const struct view_options view = view_options_make(&out->view);
-    const struct option_section sections[] = {
-        {"Picture", picture, sizeof picture / sizeof picture[0]},
-        {"Camera", view.camera, VIEW_CAMERA_OPTIONS},
-        {"Sun", view.sun, VIEW_SUN_OPTIONS},
-        {"Exposure", view.exposure, VIEW_EXPOSURE_OPTIONS},
+    const struct view_command command = {
+        .name = "render",
+        .about = about,
+        .examples = examples,
+        .own = {"Picture", picture, sizeof picture / sizeof picture[0]},
+        .scene = &out->scene,
+        .choice = &out->view,
     };
-    const struct option_spec spec = {.command = "render",
-                                     .positional = "SCENE",
-                                     .min_positionals = 1,
-                                     .max_positionals = 1,
-                                     .about = about,
-                                     .examples = examples,
-                                     .sections = sections,
-                                     .section_count = sizeof sections / sizeof sections[0]};
-    struct option_arguments words;
-    const enum options_outcome outcome = options_read(&spec, argc, argv, &words);
-    out->scene = words.positionals[0];
-    return outcome;
+    return view_command_read(&command, argc, argv);
 }
 
 static enum exit_status choose_format(const char *path, enum picture_format *out)

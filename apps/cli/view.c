@@ -53,25 +53,15 @@ static enum options_outcome read_arguments(int argc, char **argv, struct view_ar
          .target.flag = &out->is_quiet,
          .help = "No progress line."},
     };
-    const struct view_options view = view_options_make(&out->view);
-    const struct option_section sections[] = {
-        {"Window", window, sizeof window / sizeof window[0]},
-        {"Camera", view.camera, VIEW_CAMERA_OPTIONS},
-        {"Sun", view.sun, VIEW_SUN_OPTIONS},
-        {"Exposure", view.exposure, VIEW_EXPOSURE_OPTIONS},
+    const struct view_command command = {
+        .name = "view",
+        .about = about,
+        .examples = examples,
+        .own = {"Window", window, sizeof window / sizeof window[0]},
+        .scene = &out->scene,
+        .choice = &out->view,
     };
-    const struct option_spec spec = {.command = "view",
-                                     .positional = "SCENE",
-                                     .min_positionals = 1,
-                                     .max_positionals = 1,
-                                     .about = about,
-                                     .examples = examples,
-                                     .sections = sections,
-                                     .section_count = sizeof sections / sizeof sections[0]};
-    struct option_arguments words;
-    const enum options_outcome outcome = options_read(&spec, argc, argv, &words);
-    out->scene = words.positionals[0];
-    return outcome;
+    return view_command_read(&command, argc, argv);
 }
 
 static enum exit_status check_screenshot(const char *path)

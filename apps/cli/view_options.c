@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+enum { CAMERA_OPTIONS = 9, SUN_OPTIONS = 4, EXPOSURE_OPTIONS = 3 };
+
 static const double rad_per_deg = 3.14159265358979323846 / 180.0;
 
 static const char *const tone_words[] = {"filmic", "exponential", NULL};
@@ -40,9 +42,9 @@ static struct option with_unit(struct option option, const char *metavar)
     return option;
 }
 
-static void make_camera(struct view_choice *c, struct option out[VIEW_CAMERA_OPTIONS])
+static void make_camera(struct view_choice *c, struct option out[CAMERA_OPTIONS])
 {
-    const struct option options[VIEW_CAMERA_OPTIONS] = {
+    const struct option options[CAMERA_OPTIONS] = {
         {.name = "view",
          .kind = OPTION_TEXT,
          .target.text = &c->name,
@@ -69,9 +71,9 @@ static void make_camera(struct view_choice *c, struct option out[VIEW_CAMERA_OPT
     memcpy(out, options, sizeof options);
 }
 
-static void make_sun(struct view_choice *c, struct option out[VIEW_SUN_OPTIONS])
+static void make_sun(struct view_choice *c, struct option out[SUN_OPTIONS])
 {
-    const struct option options[VIEW_SUN_OPTIONS] = {
+    const struct option options[SUN_OPTIONS] = {
         make_number("sun-elevation", &c->sun_elevation_deg, latitudes_deg,
                     "Above the camera's horizontal."),
         make_number("sun-azimuth", &c->sun_azimuth_deg, turns_deg,
@@ -84,13 +86,13 @@ static void make_sun(struct view_choice *c, struct option out[VIEW_SUN_OPTIONS])
     memcpy(out, options, sizeof options);
 }
 
-static void make_exposure(struct view_choice *c, struct option out[VIEW_EXPOSURE_OPTIONS])
+static void make_exposure(struct view_choice *c, struct option out[EXPOSURE_OPTIONS])
 {
     struct option ev100 = make_number("ev100", &c->ev100, stops,
                                       "Exposure value at ISO 100 (a bright day is about 15), or "
                                       "auto: found from the picture.");
     ev100.word = "auto";
-    const struct option options[VIEW_EXPOSURE_OPTIONS] = {
+    const struct option options[EXPOSURE_OPTIONS] = {
         with_unit(ev100, "EV"),
         with_unit(make_number("bias", &c->bias_ev, stops, "Stops of brightness added to either."),
                   "EV"),
@@ -105,13 +107,30 @@ static void make_exposure(struct view_choice *c, struct option out[VIEW_EXPOSURE
     memcpy(out, options, sizeof options);
 }
 
-struct view_options view_options_make(struct view_choice *choice)
+enum options_outcome view_command_read(const struct view_command *command, int argc, char **argv)
 {
-    struct view_options options;
-    make_camera(choice, options.camera);
-    make_sun(choice, options.sun);
-    make_exposure(choice, options.exposure);
-    return options;
+    struct option camera[CAMERA_OPTIONS];
+    struct option sun[SUN_OPTIONS];
+    struct option exposure[EXPOSURE_OPTIONS];
+    make_camera(command->choice, camera);
+    make_sun(command->choice, sun);
+    make_exposure(command->choice, exposure);
+    const struct option_section sections[] = {command->own,
+                                              {"Camera", camera, CAMERA_OPTIONS},
+                                              {"Sun", sun, SUN_OPTIONS},
+                                              {"Exposure", exposure, EXPOSURE_OPTIONS}};
+    const struct option_spec spec = {.command = command->name,
+                                     .positional = "SCENE",
+                                     .min_positionals = 1,
+                                     .max_positionals = 1,
+                                     .about = command->about,
+                                     .examples = command->examples,
+                                     .sections = sections,
+                                     .section_count = sizeof sections / sizeof sections[0]};
+    struct option_arguments words;
+    const enum options_outcome outcome = options_read(&spec, argc, argv, &words);
+    *command->scene = words.positionals[0];
+    return outcome;
 }
 
 static void replace_angle(struct option_number given, double *rad)

@@ -19,18 +19,16 @@ struct view_choice {
     int tone; // index of the word; -1: as in the view
 };
 
-enum { VIEW_CAMERA_OPTIONS = 9, VIEW_SUN_OPTIONS = 4, VIEW_EXPOSURE_OPTIONS = 3 };
-
-struct view_options {
-    struct option camera[VIEW_CAMERA_OPTIONS];
-    struct option sun[VIEW_SUN_OPTIONS];
-    struct option exposure[VIEW_EXPOSURE_OPTIONS];
-};
-
 struct view_choice view_choice_default(void);
 
-// The tables of options that fill `choice`.
-struct view_options view_options_make(struct view_choice *choice);
+// A command that draws one scene.
+struct view_command {
+    const char *name, *about, *examples; // see option_spec
+    struct option_section own;           // its own options; those of a view follow
+    const char **scene;                  // becomes the file given
+    struct view_choice *choice;          // becomes what was given of a view
+};
+enum options_outcome view_command_read(const struct view_command *command, int argc, char **argv);
 
 // The scene's view of that name with what was given on the command line. EXIT_USAGE (reported) when
 // there is no such view or the options contradict each other.
