@@ -6,7 +6,7 @@
 
 #include "app.h"
 
-enum { BENCH_MAX_ROWS = 128, BENCH_MAX_RUNS = 1000, BENCH_NAME_MAX = 64 };
+enum { BENCH_MAX_ROWS = 256, BENCH_MAX_RUNS = 1000, BENCH_NAME_MAX = 64 };
 
 // One quantity of one case, measured some times.
 struct bench_row {

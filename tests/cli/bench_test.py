@@ -42,7 +42,15 @@ class Bench(ProgramTest):
         whole = [row for row in frames["rows"] if row["metric"] == "frame"]
         self.assertEqual({row["case"] for row in whole},
                          {f"{view} {size}" for view in ["ground", "orbit"] for size in ["1024x576", "1920x1080"]})
-        self.assertTrue(any(row["metric"].startswith("pass ") for row in frames["rows"]))
+        rows = {(row["case"], row["metric"]): row for row in frames["rows"]}
+        for case in ["ground 1024x576", "orbit 1024x576"]:
+            # A camera that stands still has its maps of the sky.
+            still, moving = rows[case, "pass sky maps (CPU)"], rows[case, "moving pass sky maps (CPU)"]
+            self.assertLess(still["min"], moving["min"])
+            passes = [row for name, row in rows.items() if name[0] == case and name[1].startswith("pass ")]
+            together = rows[case, "passes together"]
+            self.assertLessEqual(max(row["min"] for row in passes), together["min"])
+            self.assertGreater(rows[case, "moving frame"]["min"], 0.0)
 
     def test_start(self):
         start, = self.measure("start")
