@@ -32,4 +32,5 @@ export ASAN_OPTIONS=${ASAN_OPTIONS:-abort_on_error=0:exitcode=99:detect_stack_us
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-halt_on_error=1:print_stacktrace=1}
 run_meson_test "$sanitized" "${sanitized_suites[@]/#/--suite=}"
 
-exec python3 tools/count-tests.py "$release/meson-logs/testlog.json" "$sanitized/meson-logs/testlog.json"
+python3 tools/count-tests.py "$release/meson-logs/testlog.json" "$sanitized/meson-logs/testlog.json" |
+    tee build/tests.log
