@@ -5,8 +5,12 @@
 // validate: ELEVATION_COUNT 0; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0
 // validate: ELEVATION_COUNT 4; COLOUR_COUNT 4; WATER_COUNT 4; LIGHTS_COUNT 4
 // validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; NO_FLOAT_LINEAR
+// validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; HAS_DETAIL
 #include "terrain/layers.glsl"
 #include "terrain/shadow.glsl"
+#ifdef HAS_DETAIL
+#include "terrain/detail.glsl"
+#endif
 
 uniform highp sampler2D u_position;
 uniform mat3 u_local_from_planet; // at the camera's ground point, which is the anchor
@@ -85,8 +89,8 @@ float layer_over_mask(float below, sampler2D mask, mat3x4 frame, vec3 geo_footpr
 
 // Slopes to the east and north of the layer, laid over those below. Steps are half a texel of the
 // level that is seen, alike in metres: over a linear filter that is the continuous slope of a
-// quadratic spline.
-vec2 layer_over_slope(vec2 below, sampler2D heights, mat3x4 frame, vec3 geo_footprint,
+// quadratic spline. z: log2 of a texel's height in m.
+vec3 layer_over_slope(vec3 below, sampler2D heights, mat3x4 frame, vec3 geo_footprint,
                       float cos_latitude)
 {
     vec3 at = layer_locate(frame[0], frame[1], geo_footprint.xy);
@@ -102,12 +106,12 @@ vec2 layer_over_slope(vec2 below, sampler2D heights, mat3x4 frame, vec3 geo_foot
     float de = layer_linear(heights, frame[1], at.xy + to_east, lod) -
                layer_linear(heights, frame[1], at.xy - to_east, lod);
     vec2 slope = vec2(de / (east * cos_latitude), dn / north) * (frame[2].x / (2.0 * u_anchor.w));
-    return mix(below, slope, at.z);
+    return mix(below, vec3(slope, frame[2].z), at.z);
 }
 
-vec2 terrain_slope(vec3 geo_footprint, float cos_latitude)
+vec3 terrain_slope(vec3 geo_footprint, float cos_latitude)
 {
-    vec2 slope = vec2(0.0);
+    vec3 slope = vec3(0.0, 0.0, 30.0); // no data: larger than any planet
 #if ELEVATION_COUNT > 0
     slope = layer_over_slope(slope, u_elevation0, ELEVATION_FRAME(0), geo_footprint, cos_latitude);
 #endif
@@ -202,11 +206,22 @@ void main()
     float cos_latitude = max(length(east), 1e-5);
     east /= cos_latitude;
     vec3 north = cross(up, east);
-    vec2 slope = terrain_slope(geo_footprint, cos_latitude);
+    vec3 slope = terrain_slope(geo_footprint, cos_latitude);
+    vec3 root = terrain_albedo(geo_footprint);
+    float water = terrain_water(geo_footprint);
+#ifdef HAS_DETAIL
+    // On the sphere and not on the mesh, whose vertices move with the camera.
+    vec4 noise = detail_noise(local - up * p.w, log2_footprint - 0.3 * log2(slant), slope.z);
+    // Plains are not quite plain, and water is.
+    float land = 1.0 - water;
+    float rough = land * detail_slope(length(slope.xy), min(slope.z, 20.0));
+    slope.xy += rough * vec2(dot(noise.xyz, east), dot(noise.xyz, north));
+    root = detail_albedo(root, land * noise.w, land * length(slope.xy));
+#endif
     vec3 normal = normalize(up - slope.x * east - slope.y * north);
 
     float is_ground = p.w > -1e8 ? 1.0 : 0.0;
-    o_albedo_water = is_ground * vec4(terrain_albedo(geo_footprint), terrain_water(geo_footprint));
+    o_albedo_water = is_ground * vec4(root, water);
     float sun = terrain_sun_visibility(p.xyz, p.w);
     // A row times a matrix: the transpose turns local axes back into the planet's.
     o_normal_sun = is_ground * vec4(normal * u_local_from_planet, sun);

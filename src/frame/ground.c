@@ -38,6 +38,8 @@ static trl_result load_surface(struct gpu *gpu, const struct trl_scene *scene,
     desc.radius_m = scene->medium.ground_radius_m;
     desc.layer_count = scene->layer_count;
     desc.layers = layers;
+    desc.detail = (struct detail_desc){scene->detail.roughness, scene->detail.albedo_variation,
+                                       scene->detail.smallest_m};
     daylight_ground_albedo(&scene->medium, desc.default_albedo);
     return surface_init(gpu, &desc, surface);
 }

@@ -96,13 +96,40 @@ static trl_result read_layer(const struct scene_node *node, struct layer *out)
     return result == TRL_OK ? scene_node_bool_or(&optional, &out->is_optional) : result;
 }
 
+static trl_result read_detail(const struct scene_node *node, struct scene_detail *out)
+{
+    if (!node->value) {
+        return TRL_OK;
+    }
+    const struct scene_range parts = {.min = 0, .max = 10};
+    const struct scene_range variations = {.min = 0, .max = 1};
+    const struct scene_range lengths = {.min = 0.01, .max = 1e6};
+    const struct scene_node roughness = scene_node_member(node, "roughness");
+    const struct scene_node variation = scene_node_member(node, "albedo_variation");
+    const struct scene_node smallest = scene_node_member(node, "smallest_m");
+    *out = (struct scene_detail){.roughness = 1, .albedo_variation = 0.2, .smallest_m = 0.2};
+    trl_result result = scene_node_check_keys(
+        node, (const char *const[]){"roughness", "albedo_variation", "smallest_m", NULL});
+    if (result == TRL_OK) {
+        result = scene_node_number_or(&roughness, &parts, &out->roughness);
+    }
+    if (result == TRL_OK) {
+        result = scene_node_number_or(&variation, &variations, &out->albedo_variation);
+    }
+    if (result == TRL_OK) {
+        result = scene_node_number_or(&smallest, &lengths, &out->smallest_m);
+    }
+    return result;
+}
+
 trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *out)
 {
     const struct scene_node surface = scene_node_member(root, "surface");
     if (!surface.value) {
         return TRL_OK;
     }
-    trl_result result = scene_node_check_keys(&surface, (const char *const[]){"layers", NULL});
+    trl_result result =
+        scene_node_check_keys(&surface, (const char *const[]){"layers", "detail", NULL});
     const struct scene_node layers = scene_node_member(&surface, "layers");
     if (result == TRL_OK) {
         result = scene_node_check_array(&layers, SCENE_MAX_LAYERS, "a list of layers");
@@ -112,5 +139,6 @@ trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *ou
         out->layer_count = i + 1;
         result = read_layer(&element, &out->layers[i]);
     }
-    return result;
+    const struct scene_node detail = scene_node_member(&surface, "detail");
+    return result == TRL_OK ? read_detail(&detail, &out->detail) : result;
 }

@@ -30,12 +30,20 @@ struct layer {
     double radiance_cd_m2; // lights: luminance of white
 };
 
+// Made-up ground below the resolution of the layers; all 0: none.
+struct scene_detail {
+    double roughness; // slopes relative to the data's
+    double albedo_variation;
+    double smallest_m; // shortest wavelength
+};
+
 struct trl_scene {
     const trl_context *ctx;
     char *name;
     struct medium medium;
     size_t layer_count;
     struct layer layers[SCENE_MAX_LAYERS];
+    struct scene_detail detail;
     size_t view_count;
     char *view_names[SCENE_MAX_VIEWS];
     trl_view views[SCENE_MAX_VIEWS];

@@ -77,6 +77,9 @@ trl_result terrain_compose_draw(struct terrain_compose *compose,
                            (float)(2 * in->camera->tan_half_fov_y / in->position->height), 0, 0};
     surface_bind(surface, &anchor, program);
     terrain_shadow_bind(in->shadow, in->camera, program);
+    if (surface->detail.size_count > 0) {
+        detail_bind(&surface->detail, &anchor, in->camera->position_m, program);
+    }
     gpu_program_set_texture(program, "u_position", in->position);
     gpu_program_set_mat3(program, "u_local_from_planet", local_from_planet);
     gpu_program_set_vec4(program, "u_view", view);

@@ -343,6 +343,16 @@ static trl_result find_bounds(struct surface *s)
     return result;
 }
 
+// In north-south direction, on the sphere; of everything that has layers at all.
+static double find_coarsest_m(const struct surface *s)
+{
+    double coarsest = 0;
+    for (size_t i = 0; i < s->counts[SURFACE_ELEVATION]; i++) {
+        coarsest = fmax(coarsest, s->layers[SURFACE_ELEVATION][i].frame.texel_height);
+    }
+    return coarsest * s->radius_m;
+}
+
 trl_result surface_init(struct gpu *gpu, const struct surface_desc *desc, struct surface *out)
 {
     *out = (struct surface){.gpu = gpu,
@@ -353,6 +363,9 @@ trl_result surface_init(struct gpu *gpu, const struct surface_desc *desc, struct
     trl_result result = load_layers(&loader);
     if (result == TRL_OK) {
         result = find_bounds(out);
+    }
+    if (result == TRL_OK) {
+        result = detail_init(gpu, &desc->detail, find_coarsest_m(out), &out->detail);
     }
     for (size_t i = 0; i < SURFACE_MAX_LAYERS; i++) {
         mem_free(gpu->ctx, loader.masks[i]);
@@ -370,6 +383,7 @@ void surface_finish(struct surface *surface)
             layer_finish(&surface->layers[k][i]);
         }
     }
+    detail_finish(&surface->detail);
     if (surface->gpu) {
         mem_free(surface->gpu->ctx, surface->bounds);
     }

@@ -9,6 +9,7 @@
 // struct terrain_layer: nobody else sees how texels come to be there.)
 
 #include "terrain/anchor.h"
+#include "terrain/detail.h"
 #include "terrain/layer.h"
 
 enum surface_kind {
@@ -19,8 +20,8 @@ enum surface_kind {
     SURFACE_KIND_COUNT
 };
 
-// Of each kind, and together: a fragment shader surely has 16 samplers, and two are taken.
-enum { SURFACE_MAX_LAYERS = 4, SURFACE_MAX_ALL_LAYERS = 14 };
+// Of each kind, and together: a fragment shader surely has 16 samplers, and three are taken.
+enum { SURFACE_MAX_LAYERS = 4, SURFACE_MAX_ALL_LAYERS = 13 };
 
 struct surface_layer_desc {
     enum surface_kind kind;
@@ -36,6 +37,7 @@ struct surface_desc {
     size_t layer_count;
     const struct surface_layer_desc *layers; // later ones lie over earlier ones of their kind
     float default_albedo[3];                 // linear sRGB, where no picture is
+    struct detail_desc detail;               // all 0: none
     double max_bytes; // rasters that would need more are refused; see default
 };
 
@@ -55,6 +57,7 @@ struct surface {
     float default_albedo[3];
     size_t counts[SURFACE_KIND_COUNT];
     struct terrain_layer layers[SURFACE_KIND_COUNT][SURFACE_MAX_LAYERS];
+    struct detail detail;
     struct surface_bounds *bounds; // owned; north row first, from 180 W
     double min_altitude_m, max_altitude_m;
 };
@@ -86,7 +89,7 @@ size_t surface_count_elevations(const struct surface *surface, struct vec3 direc
                                 double angle_rad);
 
 // "#define"s of the numbers of layers, for programs that include terrain/layers.glsl.
-enum { SURFACE_DEFINE_COUNT = 6, SURFACE_DEFINE_LENGTH = 48 };
+enum { SURFACE_DEFINE_COUNT = 7, SURFACE_DEFINE_LENGTH = 48 };
 struct surface_defines {
     char text[SURFACE_DEFINE_COUNT][SURFACE_DEFINE_LENGTH];
     const char *list[SURFACE_DEFINE_COUNT + 2]; // into text; two free for the caller

@@ -18,11 +18,6 @@
 
 #define PI 3.14159265358979323846
 
-struct fixture {
-    trl_context *ctx;
-    struct test_log log;
-};
-
 static trl_scene *parse(struct fixture *f, const char *text)
 {
     trl_scene *scene = NULL;
@@ -181,6 +176,25 @@ static void comments_are_allowed_in_any_object(void **state)
     trl_scene_destroy(&s);
 }
 
+static void detail_is_read_and_has_defaults(void **state)
+{
+    trl_scene *s = parse_with(*state, "\"layers\":", "\"layers\":");
+    assert_true(s->detail.roughness == 0 && s->detail.albedo_variation == 0);
+    trl_scene_destroy(&s);
+    s = parse_with(*state, "\"layers\":", "\"detail\": {}, \"layers\":");
+    assert_near(s->detail.roughness, 1);
+    assert_near(s->detail.albedo_variation, 0.2);
+    assert_near(s->detail.smallest_m, 0.2);
+    trl_scene_destroy(&s);
+    s = parse_with(*state, "\"layers\":",
+                   "\"detail\": {\"roughness\": 2, \"albedo_variation\": 0, "
+                   "\"smallest_m\": 5}, \"layers\":");
+    assert_near(s->detail.roughness, 2);
+    assert_true(s->detail.albedo_variation == 0);
+    assert_near(s->detail.smallest_m, 5);
+    trl_scene_destroy(&s);
+}
+
 static void layers_are_read(void **state)
 {
     trl_scene *s = parse_with(
@@ -304,21 +318,6 @@ static void null_arguments_are_refused(void **state)
     trl_scene_destroy(NULL);
 }
 
-static int make_fixture(void **state)
-{
-    static struct fixture f;
-    f.ctx = test_context(&f.log);
-    *state = &f;
-    return f.ctx == NULL;
-}
-
-static int free_fixture(void **state)
-{
-    struct fixture *f = *state;
-    trl_context_destroy(&f->ctx);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -329,6 +328,7 @@ int main(void)
         cmocka_unit_test(every_profile_form_is_read),
         cmocka_unit_test(every_phase_form_is_read),
         cmocka_unit_test(comments_are_allowed_in_any_object),
+        cmocka_unit_test(detail_is_read_and_has_defaults),
         cmocka_unit_test(layers_are_read),
         cmocka_unit_test(views_are_read),
         cmocka_unit_test(files_are_found_beside_the_scene),

@@ -313,6 +313,75 @@ static void test_pixels_hold_colour_water_normal_and_lights(void **state)
     surface_finish(&s);
 }
 
+static double flat_height(double latitude, double longitude)
+{
+    (void)latitude;
+    (void)longitude;
+    return 0;
+}
+
+// How far the normal at the picture's middle leans from the vertical there, along planet axes.
+static struct vec3 lean(const struct composed *c, double latitude)
+{
+    const struct vec3 n = {(double)c->normal_sun[0], (double)c->normal_sun[1],
+                           (double)c->normal_sun[2]};
+    return vec3_sub(n, vec3_from_lat_lon(latitude * DEGREE, 10 * DEGREE));
+}
+
+static void test_detail_stays_in_its_place_and_is_gone_from_afar(void **state)
+{
+    struct fixture *f = *state;
+    char path[128];
+    fixture_write_heights(f, "flat", &GLOBE, flat_height, path);
+    const struct surface_layer_desc layer = {.kind = SURFACE_ELEVATION, .path = path, .scale = 1};
+    struct surface_desc desc = describe(&layer, 1);
+    desc.detail = (struct detail_desc){.roughness = 1, .albedo_variation = 0.2, .smallest_m = 1};
+    struct surface s;
+    assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
+    struct camera_place place = {.latitude = 40,
+                                 .longitude = 10,
+                                 .radius_m = desc.radius_m,
+                                 .altitude_m = 1000,
+                                 .pitch = -90,
+                                 .fov = 20};
+    struct camera camera = fixture_camera(&place);
+    struct composed c = compose_middle(f, &s, &camera);
+    const struct vec3 above = lean(&c, 40);
+    // Even ground leans by about 0.03 for each size of the noise.
+    assert_true(vec3_length(above) > 0.01 && vec3_length(above) < 0.5);
+    const int albedo = c.albedo_water[0];
+    assert_int_not_equal(albedo, lrint(255 * sqrt(0.3)));
+    // The same place from 100 m south, 6 degrees off the vertical.
+    place.latitude -= 100 / desc.radius_m / DEGREE;
+    place.pitch = -atan2(1000, 100) / DEGREE;
+    camera = fixture_camera(&place);
+    c = compose_middle(f, &s, &camera);
+    // Pixels of 5 m are slanted by half a percent and their middles displaced by centimetres.
+    assert_true(vec3_length(vec3_sub(lean(&c, 40), above)) < 0.1 * vec3_length(above));
+    assert_in_range(c.albedo_water[0], albedo - 1, albedo + 1);
+    // From where a pixel is as large as the longest waves, two texels of 111 km.
+    place = (struct camera_place){.latitude = 40,
+                                  .longitude = 10,
+                                  .radius_m = desc.radius_m,
+                                  .altitude_m = 2e8,
+                                  .pitch = -90,
+                                  .fov = 20};
+    camera = fixture_camera(&place);
+    c = compose_middle(f, &s, &camera);
+    // A pixel's middle is half a pixel off: 0.03 of the radius; its normal is its own vertical.
+    const struct vec3 n = {(double)c.normal_sun[0], (double)c.normal_sun[1],
+                           (double)c.normal_sun[2]};
+    const struct vec3 ray = fixture_ray(&camera, PICTURE_SIDE / 2, PICTURE_SIDE / 2);
+    const double along = -vec3_dot(ray, camera.position_m);
+    const struct vec3 nearest = vec3_add(camera.position_m, vec3_scale(ray, along));
+    const double half = sqrt(desc.radius_m * desc.radius_m - vec3_dot(nearest, nearest));
+    const struct vec3 hit = vec3_normalize(vec3_sub(nearest, vec3_scale(ray, half)));
+    // The mesh's chords: cells of a degree or two.
+    assert_true(vec3_length(vec3_sub(n, hit)) < 2e-3);
+    assert_in_range(c.albedo_water[0], lrint(255 * sqrt(0.3)) - 1, lrint(255 * sqrt(0.3)) + 1);
+    surface_finish(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -324,6 +393,7 @@ int main(void)
         cmocka_unit_test(test_errors_name_the_file),
         cmocka_unit_test(test_a_missing_optional_layer_is_passed_over),
         cmocka_unit_test(test_pixels_hold_colour_water_normal_and_lights),
+        cmocka_unit_test(test_detail_stays_in_its_place_and_is_gone_from_afar),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }
