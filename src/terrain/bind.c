@@ -23,11 +23,6 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
         out->list[out->count] = out->text[out->count];
         out->count++;
     }
-    if (surface->detail.size_count > 0) {
-        snprintf(out->text[out->count], SURFACE_DEFINE_LENGTH, "HAS_DETAIL");
-        out->list[out->count] = out->text[out->count];
-        out->count++;
-    }
     if (!surface->gpu->caps.has_float_linear) {
         snprintf(out->text[out->count], SURFACE_DEFINE_LENGTH, "NO_FLOAT_LINEAR");
         out->list[out->count] = out->text[out->count];

@@ -9,18 +9,29 @@
 // A layer that covers fewer pixels than this is left out.
 static const double LEAST_PIXELS = 3;
 
+static trl_result make_program(struct terrain_compose *compose, bool has_detail, size_t elevations)
+{
+    struct surface_defines defines;
+    surface_get_defines(compose->surface, elevations, &defines);
+    if (has_detail) {
+        defines.list[defines.count++] = "HAS_DETAIL";
+    }
+    const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+                                          .fragment = "terrain/surface.frag",
+                                          .defines = defines.list,
+                                          .define_count = defines.count};
+    return gpu_program_init(compose->gpu, &desc, &compose->programs[has_detail][elevations]);
+}
+
 trl_result terrain_compose_init(const struct surface *surface, struct terrain_compose *out)
 {
     *out = (struct terrain_compose){.gpu = surface->gpu, .surface = surface};
     trl_result result = TRL_OK;
     for (size_t i = 0; i <= surface->counts[SURFACE_ELEVATION] && result == TRL_OK; i++) {
-        struct surface_defines defines;
-        surface_get_defines(surface, i, &defines);
-        const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
-                                              .fragment = "terrain/surface.frag",
-                                              .defines = defines.list,
-                                              .define_count = defines.count};
-        result = gpu_program_init(out->gpu, &desc, &out->programs[i]);
+        result = make_program(out, false, i);
+        if (result == TRL_OK && surface->detail.size_count > 0) {
+            result = make_program(out, true, i);
+        }
     }
     if (result != TRL_OK) {
         terrain_compose_finish(out);
@@ -31,7 +42,8 @@ trl_result terrain_compose_init(const struct surface *surface, struct terrain_co
 void terrain_compose_finish(struct terrain_compose *compose)
 {
     for (size_t i = 0; i <= SURFACE_MAX_LAYERS; i++) {
-        gpu_program_finish(&compose->programs[i]);
+        gpu_program_finish(&compose->programs[0][i]);
+        gpu_program_finish(&compose->programs[1][i]);
     }
     *compose = (struct terrain_compose){0};
 }
@@ -69,15 +81,18 @@ trl_result terrain_compose_draw(struct terrain_compose *compose,
                                 const struct gpu_target *target)
 {
     const struct surface *surface = compose->surface;
-    struct gpu_program *program = &compose->programs[count_elevations(surface, in)];
+    const double pixel_rad = 2 * in->camera->tan_half_fov_y / in->position->height;
+    const double nearest_m =
+        vec3_length(in->camera->position_m) - surface->radius_m - surface->max_altitude_m;
+    const bool has_detail = detail_is_seen(&surface->detail, nearest_m * pixel_rad);
+    struct gpu_program *program = &compose->programs[has_detail][count_elevations(surface, in)];
     const struct anchor anchor = anchor_below(in->camera->position_m);
     float local_from_planet[9];
     anchor_local_from_planet(&anchor, local_from_planet);
-    const float view[4] = {(float)vec3_length(in->camera->position_m),
-                           (float)(2 * in->camera->tan_half_fov_y / in->position->height), 0, 0};
+    const float view[4] = {(float)vec3_length(in->camera->position_m), (float)pixel_rad, 0, 0};
     surface_bind(surface, &anchor, program);
     terrain_shadow_bind(in->shadow, in->camera, program);
-    if (surface->detail.size_count > 0) {
+    if (has_detail) {
         detail_bind(&surface->detail, &anchor, in->camera->position_m, program);
     }
     gpu_program_set_texture(program, "u_position", in->position);

@@ -190,6 +190,12 @@ void detail_finish(struct detail *detail)
     *detail = (struct detail){0};
 }
 
+bool detail_is_seen(const struct detail *detail, double footprint_m)
+{
+    // As terrain/detail.glsl fades it out: at a texel of level 5.
+    return detail->size_count > 0 && footprint_m < detail->tile_m[0] / SIDE * 32;
+}
+
 // Axes of the noise along the planet's: orthonormal, and slanted to all of them.
 static const struct vec3 LATTICE[3] = {
     {0.6804, 0.4127, 0.6055}, {-0.7128, 0.5596, 0.4226}, {-0.1644, -0.7191, 0.6751}};

@@ -33,6 +33,9 @@ TRL_MUST_USE trl_result detail_init(struct gpu *gpu, const struct detail_desc *d
                                     double coarsest_m, struct detail *out);
 void detail_finish(struct detail *detail);
 
+// Whether pixels of this size on the ground show any of it.
+bool detail_is_seen(const struct detail *detail, double footprint_m);
+
 // Hands it to a program that includes terrain/detail.glsl and knows places relative to a camera
 // along an anchor's axes.
 void detail_bind(const struct detail *detail, const struct anchor *anchor, struct vec3 camera_m,

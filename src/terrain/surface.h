@@ -89,7 +89,7 @@ size_t surface_count_elevations(const struct surface *surface, struct vec3 direc
                                 double angle_rad);
 
 // "#define"s of the numbers of layers, for programs that include terrain/layers.glsl.
-enum { SURFACE_DEFINE_COUNT = 7, SURFACE_DEFINE_LENGTH = 48 };
+enum { SURFACE_DEFINE_COUNT = 6, SURFACE_DEFINE_LENGTH = 48 };
 struct surface_defines {
     char text[SURFACE_DEFINE_COUNT][SURFACE_DEFINE_LENGTH];
     const char *list[SURFACE_DEFINE_COUNT + 2]; // into text; two free for the caller
