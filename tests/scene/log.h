@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #ifndef TEST_SCENE_LOG_H
 #define TEST_SCENE_LOG_H
-// A context whose errors a test can look at.
+// A context whose errors a test can look at, and the fixture that has one.
 
 #include <stdio.h>
 #include <terrella/context.h>
@@ -32,6 +32,27 @@ static inline trl_context *test_context(struct test_log *log)
     desc.cache_dir = "";
     trl_context *ctx = NULL;
     return trl_context_create(&desc, &ctx) == TRL_OK ? ctx : NULL;
+}
+
+struct fixture {
+    trl_context *ctx;
+    struct test_log log;
+};
+
+static inline int make_fixture(void **state)
+{
+    static struct fixture f;
+    f = (struct fixture){0};
+    f.ctx = test_context(&f.log);
+    *state = &f;
+    return f.ctx == NULL;
+}
+
+static inline int free_fixture(void **state)
+{
+    struct fixture *f = *state;
+    trl_context_destroy(&f->ctx);
+    return 0;
 }
 
 #endif // TEST_SCENE_LOG_H

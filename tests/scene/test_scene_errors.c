@@ -12,11 +12,6 @@
 #include "log.h"
 #include "sample.h"
 
-struct fixture {
-    trl_context *ctx;
-    struct test_log log;
-};
-
 struct error_case {
     const char *from, *to; // what is replaced in the sample
     const char *message;   // how the line begins
@@ -263,21 +258,6 @@ static void sizes_are_bounded(void **state)
              many);
     assert_text_is_refused(f, scene,
                            "t.json:1:132: atmosphere.constituents: has 17 elements; at most 16");
-}
-
-static int make_fixture(void **state)
-{
-    static struct fixture f;
-    f.ctx = test_context(&f.log);
-    *state = &f;
-    return f.ctx == NULL;
-}
-
-static int free_fixture(void **state)
-{
-    struct fixture *f = *state;
-    trl_context_destroy(&f->ctx);
-    return 0;
 }
 
 int main(void)

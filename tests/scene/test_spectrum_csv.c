@@ -13,11 +13,6 @@
 #include "log.h"
 #include "spectrum/spectrum_csv.h"
 
-struct fixture {
-    trl_context *ctx;
-    struct test_log log;
-};
-
 // From a block of exactly the text's size, so that a sanitizer sees reads behind it.
 static trl_result parse(struct fixture *f, const char *text, struct spectrum *out)
 {
@@ -97,21 +92,6 @@ static void long_lines_zero_bytes_and_too_many_lines_are_errors(void **state)
     assert_int_equal(spectrum_csv_parse(f->ctx, many, length, "x.csv", &s), TRL_ERROR_INVALID);
     assert_non_null(strstr(f->log.error, "x.csv:100001: more than 100000 lines"));
     free(many);
-}
-
-static int make_fixture(void **state)
-{
-    static struct fixture f;
-    f.ctx = test_context(&f.log);
-    *state = &f;
-    return f.ctx == NULL;
-}
-
-static int free_fixture(void **state)
-{
-    struct fixture *f = *state;
-    trl_context_destroy(&f->ctx);
-    return 0;
 }
 
 int main(void)
