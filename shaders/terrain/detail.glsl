@@ -5,8 +5,10 @@
 
 uniform lowp sampler3D u_detail_noise; // gradient and value, -1 to 1 as 0 to 1
 uniform mat3 u_detail_from_local;
-uniform vec4 u_detail_sizes[6]; // the camera in the tile, 1 / the tile's side in m; descending sides
-uniform vec4 u_detail; // number of sizes, roughness, variation of albedo, log2 of the smallest footprint in m
+// The camera in the tile, 1 / the tile's side in m; descending sides.
+uniform vec4 u_detail_sizes[6];
+// Number of sizes, roughness, variation of albedo, log2 of the smallest footprint in m.
+uniform vec4 u_detail;
 
 // The texture's gradients have a quarter of the deviation that is wanted: 1 for each size.
 const float DETAIL_GRADIENT = 4.0;
@@ -31,7 +33,8 @@ vec4 detail_noise(vec3 at, float log2_footprint, float log2_data)
             break;
         }
         vec4 n = 2.0 * textureLod(u_detail_noise, q * size.w + size.xyz + DETAIL_WARP * larger.xyz,
-                                  max(lod, 0.0)) - 1.0;
+                                  max(lod, 0.0)) -
+                 1.0;
         // Each size bends the next and makes it strong or weak, so that no tile looks like another.
         sum += seen * made * max(1.0 + 2.0 * larger.w, 0.0) * n;
         larger = n;
@@ -39,8 +42,9 @@ vec4 detail_noise(vec3 at, float log2_footprint, float log2_data)
     return vec4(DETAIL_GRADIENT * sum.xyz * u_detail_from_local, sum.w);
 }
 
-// Slope of the noise: small on even ground, else as part of the data's slope. That of natural ground
-// grows with the -0.2nd to -0.3rd power of the scale, so coarse data lack more of it than fine ones.
+// Slope of the noise: small on even ground, else as part of the data's slope. That of natural
+// ground grows with the -0.2nd to -0.3rd power of the scale, so coarse data lack more of it than
+// fine ones.
 float detail_slope(float data_slope, float log2_data)
 {
     return u_detail.y * (0.03 + data_slope * exp2(0.2 * log2_data - 1.6));

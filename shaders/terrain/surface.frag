@@ -101,8 +101,8 @@ vec3 layer_over_slope(vec3 below, sampler2D heights, mat3x4 frame, vec3 geo_foot
     vec2 uv_n = layer_locate(frame[0], frame[1], geo_over_pole(geo + vec2(0.0, north))).xy;
     vec2 uv_s = layer_locate(frame[0], frame[1], geo_over_pole(geo - vec2(0.0, north))).xy;
     vec2 to_east = vec2(east * frame[0].z, 0.0);
-    float dn = layer_linear(heights, frame[1], uv_n, lod) -
-               layer_linear(heights, frame[1], uv_s, lod);
+    float dn =
+        layer_linear(heights, frame[1], uv_n, lod) - layer_linear(heights, frame[1], uv_s, lod);
     float de = layer_linear(heights, frame[1], at.xy + to_east, lod) -
                layer_linear(heights, frame[1], at.xy - to_east, lod);
     vec2 slope = vec2(de / (east * cos_latitude), dn / north) * (frame[2].x / (2.0 * u_anchor.w));

@@ -8,7 +8,8 @@
 #include <math.h>
 
 enum { SIDE = 64, OCTAVES = 4, LEVELS = 7, LONGEST = 32, SHORTEST = 4 };
-// Octaves of one size reach from LONGEST to SHORTEST texels; the next size is smaller by that and a little, so that no two lattices fall together.
+// Octaves of one size reach from LONGEST to SHORTEST texels; the next size is smaller by that and a
+// little, so that no two lattices fall together.
 static const double SIZE_RATIO = 8.3;
 
 static uint32_t hash(uint32_t x)
