@@ -43,8 +43,10 @@ SHARED_FN Number sky_map_sun(Number mu, Number centre, Number width, Number firs
 SHARED_FN Number sky_map_lowest_sun(Length ground_radius, Length altitude, Number disc_cos,
                                     Number disc_sin)
 {
-    Number ratio = ground_radius / (ground_radius + shared_max(altitude, 0.0));
-    return -sqrt(shared_max(0.0, 1.0 - ratio * ratio)) * disc_cos - ratio * disc_sin;
+    Length h = shared_max(altitude, 0.0);
+    Length r = ground_radius + h;
+    // sqrt(1 - (R / r)^2) without cancellation
+    return -sqrt(h * (ground_radius + r)) / r * disc_cos - ground_radius / r * disc_sin;
 }
 
 SHARED_FN Number sky_map_sunlight(Number mu, Number lowest, Number softness)

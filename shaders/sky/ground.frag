@@ -38,11 +38,13 @@ struct Ground {
     vec4 emitted;
 };
 
-// Cosine of the incidence of a disc of sine `s`, part of which may be below the surface's horizon.
-float disc_cosine(float cosine, float s)
+// Mean height of the star's visible part above the level ground, as a cosine: the direct light is
+// already that of this part alone. Half a disc has its centroid at 4 / (3 pi) of its radius; between
+// none, half and all a parabola.
+float visible_height(float sun_mu, float disc_sine)
 {
-    float risen = clamp((cosine + s) / (2.0 * s), 0.0, 1.0);
-    return cosine > s ? cosine : s * risen * risen;
+    float c = clamp(sun_mu / disc_sine, -1.0, 1.0);
+    return sun_mu > disc_sine ? sun_mu : disc_sine * (c + 1.0) * (0.424 + 0.076 * c);
 }
 
 vec4 light_ground(Ray ray, Ground ground)
@@ -57,13 +59,13 @@ vec4 light_ground(Ray ray, Ground ground)
     float sun = sky_map_sunlight(sun_mu, lowest, u_ground_light.z);
     vec4 star = textureLod(u_sunlight, vec2(centre(sun, u_disc.w), altitude), 0.0);
     float day = sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w);
-    vec4 sky = textureLod(u_skylight, vec2(centre(day, u_skylight_texel), altitude), 0.0);
+    vec4 sky = exp(textureLod(u_skylight, vec2(centre(day, u_skylight_texel), altitude), 0.0));
     // A slope sees a part of the sky, and for the rest the ground around it.
     float open = 0.5 + 0.5 * dot(ground.normal, up);
-    vec4 around = u_ground_albedo * (star * disc_cosine(sun_mu, u_disc.y) + sky);
-    vec4 irradiance =
-        star * (disc_cosine(dot(ground.normal, u_sun), u_disc.y) * ground.star_visible) +
-        sky * open + around * (1.0 - open);
+    float height = visible_height(sun_mu, u_disc.y);
+    float incidence = max(dot(ground.normal, u_sun + up * (height - sun_mu)), 0.0);
+    vec4 around = u_ground_albedo * (star * height + sky);
+    vec4 irradiance = star * (incidence * ground.star_visible) + sky * open + around * (1.0 - open);
     return ground.albedo * irradiance * (1.0 / SHARED_PI) + ground.emitted;
 }
 

@@ -32,18 +32,15 @@ static void fill_optics(struct optics *optics, const struct medium *medium, uint
     optics_init(optics, medium, nm, (int)count);
 }
 
-static trl_result choose_bands(struct atmosphere *a)
+static void choose_bands(struct atmosphere *a)
 {
     struct band_fit fit;
     band_fit_init(&fit, a->optics);
-    const trl_result result = table_sample_spectra(a->ctx, &a->solution, &fit);
-    if (result == TRL_OK) {
-        band_fit_choose(&fit, &a->bands);
-        trl_log(a->ctx, TRL_LOG_DEBUG, TRL_LOG_ITEM_SOLVER,
-                "bands at %.0f, %.0f, %.0f, %.0f nm reproduce colours to %.2f %%", a->bands.nm[0],
-                a->bands.nm[1], a->bands.nm[2], a->bands.nm[3], 100 * a->bands.rms_error);
-    }
-    return result;
+    band_fit_add_products(&fit, &a->solution);
+    band_fit_choose(&fit, &a->bands);
+    trl_log(a->ctx, TRL_LOG_DEBUG, TRL_LOG_ITEM_SOLVER,
+            "bands at %.0f, %.0f, %.0f, %.0f nm reproduce colours to %.2f %%", a->bands.nm[0],
+            a->bands.nm[1], a->bands.nm[2], a->bands.nm[3], 100 * a->bands.rms_error);
 }
 
 static trl_result compute(struct atmosphere *a, const struct solver_settings *settings)
@@ -52,9 +49,7 @@ static trl_result compute(struct atmosphere *a, const struct solver_settings *se
     trl_result result = solution_init(a->ctx, a->optics, settings, &a->solution);
     const double solved = seconds();
     if (result == TRL_OK) {
-        result = choose_bands(a);
-    }
-    if (result == TRL_OK) {
+        choose_bands(a);
         result = table_init(a->ctx, &a->solution, &a->peaked, &a->bands, &a->table);
     }
     a->stats.solve_s = solved - start;

@@ -69,6 +69,65 @@ void band_fit_add(struct band_fit *fit, const lanes *spectrum)
     }
 }
 
+enum { SURFACES = 9 };
+
+// Albedo of typical surfaces over x = 0 (shortest) to 1 (longest wavelength): grey, slopes both ways, the middle
+// raised or lowered, and smooth bumps that look blue, green, yellow and red.
+static double surface_albedo(int surface, double x)
+{
+    const double values[SURFACES] = {1,
+                                     1 - 0.8 * x,
+                                     0.2 + 0.8 * x,
+                                     1 - 0.8 * fabs(2 * x - 1),
+                                     0.2 + 0.8 * fabs(2 * x - 1),
+                                     0.1 + 0.9 * exp(-40 * (x - 0.20) * (x - 0.20)),
+                                     0.1 + 0.9 * exp(-40 * (x - 0.45) * (x - 0.45)),
+                                     0.1 + 0.9 * exp(-40 * (x - 0.60) * (x - 0.60)),
+                                     0.1 + 0.9 / (1 + exp(-20 * (x - 0.60)))};
+    return values[surface];
+}
+
+static void add_surfaces(struct band_fit *fit, const lanes *light)
+{
+    static const float ways[] = {0, 1, 3}; // through the vertical optical depth
+    const struct optics *optics = fit->optics;
+    const int last = optics->wavelength_count - 1;
+    for (int surface = 0; surface < SURFACES; surface++) {
+        for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+            lanes spectrum;
+            for (int k = 0; k < LANES; k++) {
+                const double x = last > 0 ? (double)(k < last ? k : last) / last : 0.5;
+                spectrum[k] =
+                    (*light)[k] * (float)(surface_albedo(surface, x) *
+                                          exp(-(double)ways[w] * optics->vertical_depth[k]));
+            }
+            // White counts for three: a wrong grey is seen first.
+            for (int times = surface == 0 ? 3 : 1; times > 0; times--) {
+                band_fit_add(fit, &spectrum);
+            }
+        }
+    }
+}
+
+void band_fit_add_products(struct band_fit *fit, const struct solution *solution)
+{
+    const struct moments *m = &solution->moments;
+    static const int suns_deg[] = {0, 40, 60, 70, 80, 85, 88};
+    for (size_t s = 0; s < sizeof suns_deg / sizeof *suns_deg; s++) {
+        const double mu = cos(suns_deg[s] * M_PI / 180);
+        lanes star;
+        sunlight_at(&solution->sun, fit->optics->ground_radius_m, mu, &star);
+        add_surfaces(fit, &star);
+        int nearest = 0;
+        for (int i = 0; i < m->suns; i++) {
+            nearest = fabs(moments_sun_mu(m, i) - mu) < fabs(moments_sun_mu(m, nearest) - mu)
+                          ? i
+                          : nearest;
+        }
+        add_surfaces(fit, &m->irradiance[nearest]);
+    }
+}
+
 // Solves the symmetric system a x = b (4 x 4, three right sides) by elimination with pivoting.
 // False when it is singular: the spectra do not tell these wavelengths apart.
 static bool solve_four(double a[BAND_COUNT][BAND_COUNT], double b[BAND_COUNT][3])

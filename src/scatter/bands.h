@@ -7,7 +7,7 @@
 // not; the colour comes last, by a matrix fitted so that the four reproduce what all wavelengths
 // give. docs/decisions/003-four-bands.md
 
-#include "scatter/optics.h"
+#include "scatter/solver.h"
 
 enum { BAND_COUNT = 4 };
 
@@ -23,7 +23,7 @@ struct bands {
     double rms_error; // of the fit: RMS difference in linear sRGB relative to the luminance
 };
 
-// Collects the spectra that the scene really has, then chooses.
+// Collects spectra that have to be reproduced, then chooses.
 struct band_fit {
     const struct optics *optics;
     double xyz_from_lanes[3][LANES]; // the exact matrix, from the star's fine spectrum and CIE 1931
@@ -32,9 +32,10 @@ struct band_fit {
 };
 
 void band_fit_init(struct band_fit *fit, const struct optics *optics);
-// Adds a spectrum of radiance per unit irradiance; every spectrum counts the same, whatever its
-// brightness.
+// Adds a spectrum of radiance per unit irradiance; spectra count alike, whatever their brightness.
 void band_fit_add(struct band_fit *fit, const lanes *spectrum);
+// Adds what the GPU multiplies: light of the star and of the sky, on surfaces of many colours, behind air.
+void band_fit_add_products(struct band_fit *fit, const struct solution *solution);
 // Tries every choice of four wavelengths: least squares of each through the Gram matrix.
 void band_fit_choose(const struct band_fit *fit, struct bands *out);
 

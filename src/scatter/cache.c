@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { FORMAT_VERSION = 2, SAMPLES = 256, PIECES = 6 };
+enum { FORMAT_VERSION = 5, SAMPLES = 256, PIECES = 6 };
 
 // FNV-1a over words of eight bytes; a last short word is filled with zeros. Not for enemies: it
 // finds accidents.
@@ -38,6 +38,7 @@ static uint64_t hash_settings(uint64_t hash, const struct solver_settings *s)
                               s->azimuths,
                               s->first_refinement,
                               s->nodes_per_shell,
+                              s->first_nodes_per_shell,
                               s->max_orders,
                               s->tolerance};
     return hash_bytes(hash, numbers, sizeof numbers);
@@ -69,8 +70,8 @@ static uint64_t hash_inputs(const struct atmosphere *a, const struct solver_sett
     hash = hash_bytes(hash, o->wavelength_nm, sizeof o->wavelength_nm);
     hash = hash_bytes(hash, &o->ground_albedo, sizeof(lanes));
     hash = hash_bytes(hash, o->shell_of_altitude, sizeof o->shell_of_altitude);
-    for (int nm = 360; nm <= 830; nm += 5) { // the colours depend on the whole spectrum
-        hash = hash_double(hash, spectrum_at(&o->medium->star_irradiance, nm));
+    for (int nm = 360; nm < 830; nm++) { // as the colours sample it
+        hash = hash_double(hash, spectrum_at(&o->medium->star_irradiance, nm + 0.5));
     }
     for (int i = 0; i < o->constituent_count; i++) {
         hash = hash_constituent(hash, o, i);
@@ -114,6 +115,14 @@ static size_t list_pieces(const struct atmosphere *a, struct piece pieces[PIECES
     return bytes;
 }
 
+// A cache that fails is worth one warning, not the errors of what it tried.
+static trl_context silenced(const trl_context *ctx)
+{
+    trl_context quiet = *ctx;
+    quiet.desc.log = NULL;
+    return quiet;
+}
+
 static char *cache_path(const struct atmosphere *a, uint64_t key)
 {
     return mem_printf(a->ctx, "%s/atmosphere-%016llx.bin", a->ctx->cache_dir,
@@ -153,9 +162,10 @@ bool cache_load(struct atmosphere *a, const struct solver_settings *settings)
     struct piece pieces[PIECES];
     char *data = NULL;
     size_t size = 0;
+    const trl_context quiet = silenced(a->ctx);
     // One byte more than is right, so that a file that is too long is seen as damaged, not refused.
     const trl_result result = file_read(
-        a->ctx, path, list_pieces(a, pieces) + sizeof(struct header) + 4096, &data, &size);
+        &quiet, path, list_pieces(a, pieces) + sizeof(struct header) + 4096, &data, &size);
     const bool is_loaded = result == TRL_OK && unpack(a, key, data, size);
     if (!is_loaded) {
         trl_log(a->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_CACHE,
@@ -173,7 +183,8 @@ void cache_store(const struct atmosphere *a, const struct solver_settings *setti
     const size_t bytes = list_pieces(a, pieces);
     char *path = cache_path(a, key);
     char *data = mem_alloc(a->ctx, sizeof(struct header) + bytes, 1);
-    trl_result result = path && data ? file_make_dirs(a->ctx, a->ctx->cache_dir) : TRL_ERROR_MEMORY;
+    const trl_context quiet = silenced(a->ctx);
+    trl_result result = path && data ? file_make_dirs(&quiet, a->ctx->cache_dir) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
         char *at = data + sizeof(struct header);
         for (int p = 0; p < PIECES; p++) {
@@ -186,7 +197,7 @@ void cache_store(const struct atmosphere *a, const struct solver_settings *setti
                                 .checksum = hash_bytes(key, data + sizeof header, bytes),
                                 .orders = a->solution.orders};
         memcpy(data, &header, sizeof header);
-        result = file_write(a->ctx, path, data, sizeof header + bytes);
+        result = file_write(&quiet, path, data, sizeof header + bytes);
     }
     if (result != TRL_OK) {
         trl_log(a->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_CACHE,

@@ -9,6 +9,9 @@
 // ground) together.
 static const double UNIFORM_SHARE = 0.3;
 
+// Peaks lower than this are left to the moments.
+static const double LEAST_FORWARD_SHARE = 0.05;
+
 double optics_shell_slope(const struct optics *optics, double altitude_m)
 {
     double slope = optics->share_uniform;
@@ -39,6 +42,21 @@ double optics_altitude(const struct optics *optics, double shell)
     return interpolate(optics->altitude_of_shell, shell);
 }
 
+// The first moment that is not resolved is the height of the peak; the others lose it and are
+// scaled back to p_0 = 1.
+static void take_forward_peak(struct optics *optics, int i)
+{
+    double *moment = optics->moment[i];
+    const double share = moment[OPTICS_MAX_DEGREE];
+    optics->forward_share[i] = share > LEAST_FORWARD_SHARE ? share : 0;
+    if (optics->forward_share[i] > 0) {
+        for (int l = 0; l <= OPTICS_MAX_DEGREE; l++) {
+            moment[l] = (moment[l] - share) / (1 - share);
+        }
+        optics->extinction_per_m[i] -= optics->scattering_per_m[i] * (float)share;
+    }
+}
+
 static void fill_coefficients(struct optics *optics, const double *wavelength_nm, int count)
 {
     for (int k = 0; k < LANES; k++) {
@@ -55,6 +73,7 @@ static void fill_coefficients(struct optics *optics, const double *wavelength_nm
     }
     for (int i = 0; i < optics->constituent_count; i++) {
         phase_moments(&optics->medium->constituents[i].phase, OPTICS_MAX_DEGREE, optics->moment[i]);
+        take_forward_peak(optics, i);
     }
 }
 

@@ -22,7 +22,11 @@ struct optics {
     lanes ground_albedo;
     double moment[MEDIUM_MAX_CONSTITUENTS]
                  [OPTICS_MAX_DEGREE + 1]; // Legendre, of the phase functions
-    double vertical_depth[LANES];         // optical depth of extinction, straight up
+    // Share of a constituent's scattering so far forward that no moments resolve it: it counts as
+    // not scattered (delta-M, Wiscombe 1977). `extinction_per_m` and `moment` are without it,
+    // `scattering_per_m` is whole. 0 but for very sharp phase functions.
+    double forward_share[MEDIUM_MAX_CONSTITUENTS];
+    double vertical_depth[LANES]; // optical depth of extinction, straight up
     double vertical_scattering_depth[MEDIUM_MAX_CONSTITUENTS]; // largest over the wavelengths
 
     // The shell coordinate u in [0, 1] rises from the ground to the top and stretches the altitudes

@@ -104,6 +104,23 @@ static void find_shadow_edges(const struct query *query, const struct query_view
     }
 }
 
+// Phase function averaged over the star's disc, which matters where it is as sharp as the disc:
+// rings of equal area, midpoints around each.
+static double disc_phase(const struct phase *phase, double nu, double disc_rad)
+{
+    enum { RINGS = 4, POINTS = 8 };
+    const double sine = sqrt(fmax(0, 1 - nu * nu));
+    double sum = 0;
+    for (int ring = 0; ring < RINGS; ring++) {
+        const double off_rad = disc_rad * sqrt((ring + 0.5) / RINGS);
+        for (int k = 0; k < POINTS; k++) {
+            const double around = cos((k + 0.5) * M_PI / POINTS); // the other half mirrors it
+            sum += phase_value(phase, nu * cos(off_rad) + sine * sin(off_rad) * around);
+        }
+    }
+    return sum / (RINGS * POINTS);
+}
+
 void query_radiance(struct query *query, const struct query_view *view, lanes *radiance)
 {
     const struct solution *s = query->solution;
@@ -127,7 +144,8 @@ void query_radiance(struct query *query, const struct query_view *view, lanes *r
     float phase[MEDIUM_MAX_CONSTITUENTS];
     for (int i = 0; i < optics->constituent_count; i++) {
         channels.channel[i] = 0;
-        phase[i] = (float)phase_value(&optics->medium->constituents[i].phase, view->nu);
+        phase[i] =
+            (float)disc_phase(&optics->medium->constituents[i].phase, view->nu, s->sun.disc_rad);
         channels.phase[i] = &phase[i];
     }
     const unsigned state = lanes_flush_denormals();

@@ -7,7 +7,7 @@
 
 // Moments of the phase function beyond lmax are dropped; what they would scatter a second time is
 // about the constituent's optical depth times the first moment dropped, below this.
-static const double DROPPED_MOMENT[] = {[SOLVER_INTERACTIVE] = 0.01, [SOLVER_PRECISE] = 0.005};
+static const double DROPPED_MOMENT[] = {[SOLVER_INTERACTIVE] = 0.01, [SOLVER_PRECISE] = 0.008};
 
 enum { MIN_ORDERS = 4 };          // fewer show no ratio of a series
 static const double DARK = 1e-20; // radiance per unit irradiance that nobody will see
@@ -35,7 +35,8 @@ struct solver_settings solver_settings_choose(const struct optics *optics,
         depth = fmax(depth, optics->vertical_depth[k]);
     }
     const bool is_precise = quality == SOLVER_PRECISE;
-    const double thick = fmin(depth, 40);
+    // Beyond a depth of four the light is diffuse: grids grow slower than the depth.
+    const double thick = depth < 4 ? depth : fmin(4 + 0.3 * (depth - 4), 8);
     const int lmax = choose_degree(optics, DROPPED_MOMENT[quality]);
     return (struct solver_settings){.lmax = lmax,
                                     .levels = (is_precise ? 38 : 28) + (int)(12 * thick),
@@ -44,7 +45,8 @@ struct solver_settings solver_settings_choose(const struct optics *optics,
                                     .azimuths = lmax < 6 ? 5 : lmax - 1,
                                     .first_refinement = 2,
                                     .nodes_per_shell = (is_precise ? 10 : 8) + 12 * thick,
-                                    .max_orders = 2000,
+                                    .first_nodes_per_shell = (is_precise ? 128 : 64) + 24 * thick,
+                                    .max_orders = 200,
                                     .tolerance = is_precise ? 2e-4 : 1e-3};
 }
 
@@ -101,6 +103,7 @@ struct iteration {
     struct moments now;        // of this order
     lanes *norm, *norm_before; // [suns] size of this order and of the one before
     lanes *ratio;              // [suns] of the two, at the order before
+    double done;               // share of the work, by the error
     lanes *tail;               // [suns] what is left out, in units of this order
 };
 
@@ -129,8 +132,10 @@ static void add_first_order(struct worker *w, const struct iteration *it,
         channels.channel[i] = scatters ? 0 : -1;
         channels.phase[i] = w->phase[i];
         for (int t = 0; scatters && t < family->count; t++) {
+            // What counts as not scattered is in the direct light already.
             w->phase[i][t] =
-                (float)phase_value(&optics->medium->constituents[i].phase, (double)family->nu[t]);
+                (float)((1 - optics->forward_share[i]) *
+                        phase_value(&optics->medium->constituents[i].phase, (double)family->nu[t]));
         }
     }
     lanes *const out[1] = {w->radiance};
@@ -148,7 +153,8 @@ static void project(struct worker *w, const struct iteration *it, int level, dou
     const int harmonics = harmonic_count(lmax);
     double harmonic[(OPTICS_MAX_DEGREE + 1) * (OPTICS_MAX_DEGREE + 2) / 2];
     harmonic_values(lmax, mu, harmonic);
-    for (int i = 0; i < it->now.suns; i++) {
+    // The first sun stays dark: below the grid, its row is what is looked up.
+    for (int i = 1; i < it->now.suns; i++) {
         lanes around[OPTICS_MAX_DEGREE + 1];
         for (int m = 0; m <= lmax; m++) {
             around[m] = lanes_set(0);
@@ -191,7 +197,8 @@ static void compute_level(const struct iteration *it, struct worker *w, int leve
     for (int q = 0; q < w->directions.zeniths; q++) {
         const struct ray_desc desc = {.radius_m = radius_m,
                                       .mu = w->directions.mu[q],
-                                      .nodes_per_shell = set->nodes_per_shell * finer,
+                                      .nodes_per_shell = is_first ? set->first_nodes_per_shell
+                                                                  : set->nodes_per_shell,
                                       .end_m = INFINITY};
         ray_init(&w->ray, optics, it->solution->rules, &desc);
         fill_family(w, it, desc.mu);
@@ -208,15 +215,31 @@ static void compute_level(const struct iteration *it, struct worker *w, int leve
     }
 }
 
-static void compute_order(struct iteration *it, bool is_first)
+// The caller's thread tells how far the work is, and hears whether to stop.
+static trl_result compute_order(struct iteration *it, bool is_first)
 {
     memset(it->now.irradiance, 0, (size_t)it->now.suns * sizeof(lanes));
+    int result = TRL_OK;
 #pragma omp parallel for schedule(dynamic) num_threads(it->worker_count)
     for (int level = 0; level < it->now.levels; level++) {
+        int so_far;
+#pragma omp atomic read
+        so_far = result;
+        if (so_far != TRL_OK) {
+            continue;
+        }
         const unsigned state = lanes_flush_denormals();
         compute_level(it, &it->workers[lanes_thread()], level, is_first);
         lanes_restore(state);
+        if (lanes_thread() == 0) {
+            so_far = trl_progress(it->ctx, "solving the atmosphere", it->done);
+            if (so_far != TRL_OK) {
+#pragma omp atomic write
+                result = so_far;
+            }
+        }
     }
+    return (trl_result)result;
 }
 
 // Adds `factor[sun]` times the moments to the sum.
@@ -281,7 +304,10 @@ static trl_result run_orders(struct iteration *it, struct solution *out, lanes *
         one[i] = lanes_set(1);
     }
     for (int order = 1;; order++) {
-        compute_order(it, order == 1);
+        const trl_result result = compute_order(it, order == 1);
+        if (result != TRL_OK) {
+            return result;
+        }
         accumulate(sum, &it->now, one);
         lanes *const kept_norm = it->norm_before;
         it->norm_before = it->norm;
@@ -296,13 +322,10 @@ static trl_result run_orders(struct iteration *it, struct solution *out, lanes *
             return TRL_OK;
         }
         first_error = order == MIN_ORDERS - 1 ? fmax(error, 1e-9) : first_error;
-        const double done = order < MIN_ORDERS ? 0
-                                               : log(fmax(first_error / error, 1)) /
-                                                     log(first_error / it->settings->tolerance);
-        const trl_result result =
-            trl_progress(it->ctx, "solving the atmosphere", fmin(fmax(done, 0), 1));
-        if (result != TRL_OK) {
-            return result;
+        if (order >= MIN_ORDERS) {
+            const double done =
+                log(fmax(first_error / error, 1)) / log(first_error / it->settings->tolerance);
+            it->done = fmax(it->done, fmin(done, 1));
         }
         const struct moments kept = it->before;
         it->before = it->now;
@@ -397,10 +420,26 @@ trl_result solution_reserve(const trl_context *ctx, const struct optics *optics,
     return result;
 }
 
+static trl_result check_depth(const trl_context *ctx, const struct optics *optics)
+{
+    for (int k = 0; k < optics->wavelength_count; k++) {
+        if (!(optics->vertical_depth[k] <= SOLVER_MAX_DEPTH)) {
+            return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_SOLVER,
+                            "the atmosphere is too dense to be solved: vertical optical depth %.3g "
+                            "at %g nm; at most %g",
+                            optics->vertical_depth[k], optics->wavelength_nm[k], SOLVER_MAX_DEPTH);
+        }
+    }
+    return TRL_OK;
+}
+
 trl_result solution_init(const trl_context *ctx, const struct optics *optics,
                          const struct solver_settings *settings, struct solution *out)
 {
-    trl_result result = solution_reserve(ctx, optics, settings, out);
+    trl_result result = check_depth(ctx, optics);
+    if (result == TRL_OK) {
+        result = solution_reserve(ctx, optics, settings, out);
+    }
     if (result != TRL_OK) {
         return result;
     }

@@ -19,6 +19,7 @@ struct solver_settings {
     int azimuths;         // over half a turn
     int first_refinement; // the first order, which is peaked, has this many times more of both
     double nodes_per_shell;
+    double first_nodes_per_shell; // of the first order, which has the kink of the planet's shadow
     int max_orders;
     double tolerance; // the orders left out, relative to the sum
 };
@@ -35,8 +36,11 @@ struct solution {
     int orders; // orders of scattering that were computed; the tail is a geometric series
 };
 
+// Vertical optical depth above which a medium is refused: orders of scattering grow with its square.
+#define SOLVER_MAX_DEPTH 200.0
+
 // Solves at the wavelengths of `optics`, which must outlive the solution.
-// TRL_ERROR_MEMORY, TRL_ERROR_CANCELLED.
+// TRL_ERROR_INVALID (too dense), TRL_ERROR_MEMORY, TRL_ERROR_CANCELLED.
 TRL_MUST_USE trl_result solution_init(const trl_context *ctx, const struct optics *optics,
                                       const struct solver_settings *settings, struct solution *out);
 // The same without solving: arrays of zeros, for a cache to fill.

@@ -63,9 +63,4 @@ void table_slice(const struct table *table, const struct optics *optics, int cha
 void table_slice_at_sun(const struct table *table, const struct optics *optics, int channel,
                         double radius_m, double sun_mu, float *texels);
 
-// Adds the spectra of a coarse choice of rays, of direct light, and of plain slopes to the fit of
-// the bands.
-TRL_MUST_USE trl_result table_sample_spectra(const trl_context *ctx,
-                                             const struct solution *solution, struct band_fit *fit);
-
 #endif // SCATTER_TABLE_H

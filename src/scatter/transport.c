@@ -194,7 +194,8 @@ LANES_INLINE void fill_source_row(const struct moments *m, const struct ray_node
         lanes scattered = {0};
         for (int i = 0; i < optics->constituent_count; i++) {
             scattered += optics->scattering_per_m[i] *
-                         (float)(node->density[i] * node->weight_m * optics->moment[i][l]);
+                         (float)(node->density[i] * node->weight_m * optics->moment[i][l] *
+                                 (1 - optics->forward_share[i]));
         }
         for (int o = 0; o <= l; o++) {
             factor[harmonic_index(l, o)] =
@@ -299,8 +300,12 @@ LANES_INLINE lanes irradiance_at(const struct moments *m, double mu)
     const double x = (asinh((mu - m->sun_centre) / m->sun_width) - m->sun_first) * m->sun_scale;
     const double inside = fmin(fmax(x, 0), m->suns - 1.001);
     const int index = (int)inside;
-    return m->irradiance[index] +
-           (m->irradiance[index + 1] - m->irradiance[index]) * (float)(inside - index);
+    const struct cubic c = cubic_at((float)(inside - index));
+    const lanes *at = m->irradiance;
+    const lanes sum = at[index > 0 ? index - 1 : 0] * c.weight[0] + at[index] * c.weight[1] +
+                      at[index + 1] * c.weight[2] +
+                      at[index + 2 < m->suns ? index + 2 : m->suns - 1] * c.weight[3];
+    return lanes_max(sum, lanes_set(0)); // the cubic may undershoot where night falls
 }
 
 LANES_CLONES void transport_add_ground(const struct sunlight *sun, const struct moments *moments,

@@ -69,7 +69,11 @@ void ground_light_of_sky(const struct atmosphere *a, double highest_m, float *te
             const lanes here = below + (above - below) * part;
             const lanes base = lanes_max(expand_irradiance(m, 0, i), lanes_set(1e-30f));
             const lanes light = m->irradiance[i] * here / base;
-            store(&a->bands, &light, texels + ((size_t)row * (size_t)m->suns + i) * BAND_COUNT);
+            float *texel = texels + ((size_t)row * (size_t)m->suns + i) * BAND_COUNT;
+            store(&a->bands, &light, texel);
+            for (int b = 0; b < BAND_COUNT; b++) {
+                texel[b] = logf(fmaxf(texel[b], 1e-30f));
+            }
         }
     }
 }

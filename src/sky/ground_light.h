@@ -12,7 +12,7 @@ enum { GROUND_LIGHT_SUNS = 256, GROUND_LIGHT_ALTITUDES = 16 };
 // Direct light, by the coordinate sky_map_sunlight: [altitude][GROUND_LIGHT_SUNS][BAND_COUNT].
 void ground_light_of_star(const struct atmosphere *atmosphere, double highest_m, float *texels);
 
-// Irradiance of level ground by the sky, by the sun grid of the moments:
+// Logarithm of the irradiance of level ground by the sky, by the sun grid of the moments:
 // [altitude][suns][BAND_COUNT].
 void ground_light_of_sky(const struct atmosphere *atmosphere, double highest_m, float *texels);
 
