@@ -14,14 +14,14 @@
 #define TONE_SATURATION_PER_EV0 1.2   // cd m^-2 that are mapped to x = 1 at EV100 = 0
 #define TONE_LOG2_MEAN_PER_EV0 (-3.0) // log2 of 0.125 cd m^-2, the metered mean at EV100 = 0
 
-// x^c / (x^c + k) with c = 5/4, the contrast of the middle tones, and k such that 0.125 / 1.2
+// x^c / (x^c + k) with c = 3/2, the contrast of the middle tones, and k such that 0.125 / 1.2
 // becomes 0.18. The same form describes how receptors respond (Naka and Rushton 1966): a toe, a
-// nearly straight middle in log x, a long shoulder. The power is two square roots, which cost a
-// third of pow.
-#define TONE_FILMIC_K 0.26958
+// nearly straight middle in log x, a long shoulder. The power is one square root, a fraction of
+// what pow costs.
+#define TONE_FILMIC_K 0.15316
 SHARED_FN Number tone_filmic(Number x)
 {
-    Number powered = x * sqrt(sqrt(x));
+    Number powered = x * sqrt(x);
     return powered / (powered + TONE_FILMIC_K);
 }
 

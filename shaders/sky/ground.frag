@@ -39,7 +39,8 @@ struct Ground {
 };
 
 // Mean height of the star's visible part above the level ground, as a cosine: the direct light is
-// already that of this part alone. Half a disc has its centroid at 4 / (3 pi) of its radius; between
+// already that of this part alone. Half a disc has its centroid at 4 / (3 pi) of its radius;
+// between
 // none, half and all a parabola.
 float visible_height(float sun_mu, float disc_sine)
 {

@@ -71,7 +71,8 @@ void band_fit_add(struct band_fit *fit, const lanes *spectrum)
 
 enum { SURFACES = 9 };
 
-// Albedo of typical surfaces over x = 0 (shortest) to 1 (longest wavelength): grey, slopes both ways, the middle
+// Albedo of typical surfaces over x = 0 (shortest) to 1 (longest wavelength): grey, slopes both
+// ways, the middle
 // raised or lowered, and smooth bumps that look blue, green, yellow and red.
 static double surface_albedo(int surface, double x)
 {

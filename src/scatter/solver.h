@@ -36,7 +36,8 @@ struct solution {
     int orders; // orders of scattering that were computed; the tail is a geometric series
 };
 
-// Vertical optical depth above which a medium is refused: orders of scattering grow with its square.
+// Vertical optical depth above which a medium is refused: orders of scattering grow with its
+// square.
 #define SOLVER_MAX_DEPTH 200.0
 
 // Solves at the wavelengths of `optics`, which must outlive the solution.

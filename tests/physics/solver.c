@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// The source-moment solver and the integration along a view: closed forms, conservation, and the path tracer.
+// The source-moment solver and the integration along a view: closed forms, conservation, and the
+// path tracer.
 #include "reference_media.h"
 
 #include "base/context.h"
@@ -119,7 +120,8 @@ static void thin_air_scatters_once(void **state)
     finish(&s);
 }
 
-// Light that the planet takes out of the direct beam, by quadrature over the beam's cross-section: all that
+// Light that the planet takes out of the direct beam, by quadrature over the beam's cross-section:
+// all that
 // meets the ground, and what is scattered out of the rays that pass above it.
 static double intercepted(const struct medium *medium, double extinction_per_m)
 {
@@ -135,7 +137,8 @@ static double intercepted(const struct medium *medium, double extinction_per_m)
     return sum;
 }
 
-// A planet that absorbs nothing gives back all light that it intercepts. Outgoing light is summed over its
+// A planet that absorbs nothing gives back all light that it intercepts. Outgoing light is summed
+// over its
 // whole top and all directions there: by symmetry over the star's zenith angle only.
 static void conservative_planet_gives_back_all_light(void **state)
 {
@@ -245,7 +248,8 @@ struct view {
     double altitude_m, sun_deg, view_deg, azimuth_deg;
 };
 
-// Against brute force. The tolerance is the project's target for any value, 2 %, beyond four standard errors.
+// Against brute force. The tolerance is the project's target for any value, 2 %, beyond four
+// standard errors.
 static void compare(const struct medium *medium, const struct view *views, int count,
                     uint64_t paths)
 {
