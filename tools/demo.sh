@@ -13,7 +13,7 @@ echo "demo: rendering $# pictures of $size (the first run solves the air and com
 for view in "$@"; do
     picture=demo/$view.png
     began=$(date +%s%N)
-    "$program" render scenes/earth.json --view "$view" --size "$size" -o "$picture"
+    "$program" render scenes/earth.json --view "$view" --size "$size" --samples 2 -o "$picture"
     took=$((($(date +%s%N) - began) / 100000000))
     echo "demo: $PWD/$picture in $((took / 10)).$((took % 10)) s"
 done

@@ -4,6 +4,7 @@
 #include "app.h"
 #include "commands.h"
 #include "output.h"
+#include "shrink.h"
 #include "view_options.h"
 
 #include <stdio.h>
@@ -17,6 +18,7 @@ struct render_arguments {
     const char *scene;
     const char *output;
     struct number_size size;
+    struct option_number samples;
     struct view_choice view;
     bool lists_views;
     bool shows_timings;
@@ -37,8 +39,10 @@ static const char examples[] =
 
 static enum options_outcome read_arguments(int argc, char **argv, struct render_arguments *out)
 {
-    *out = (struct render_arguments){
-        .output = default_output, .size = {1280, 720}, .view = view_choice_default()};
+    *out = (struct render_arguments){.output = default_output,
+                                     .size = {1280, 720},
+                                     .samples = {.value = 1},
+                                     .view = view_choice_default()};
     const struct option picture[] = {
         {.name = "output",
          .letter = 'o',
@@ -51,6 +55,13 @@ static enum options_outcome read_arguments(int argc, char **argv, struct render_
          .target.size = &out->size,
          .metavar = "WxH",
          .help = "Width and height in pixels. Default: 1280x720."},
+        {.name = "samples",
+         .kind = OPTION_NUMBER,
+         .target.number = &out->samples,
+         .metavar = "N",
+         .range = {1, 4},
+         .is_whole = true,
+         .help = "Draw N x N times the pixels and average: smooth edges. 1 to 4. Default: 1."},
         {.name = "views",
          .kind = OPTION_FLAG,
          .target.flag = &out->lists_views,
@@ -114,25 +125,44 @@ static void print_timings(const trl_renderer *renderer)
     printf("%-20s %10.2f %10.2f\n", "all", gpu_ms, cpu_ms);
 }
 
-// Reads the frame back and writes it.
+// What is drawn: the picture, or a larger one that is averaged.
+static uint32_t sample_count(const struct render_arguments *arguments)
+{
+    return (uint32_t)arguments->samples.value;
+}
+
+// Reads what was drawn, averages it, and writes it.
 static trl_result write_picture(struct app *app, trl_renderer *renderer,
                                 const struct render_arguments *arguments,
                                 enum picture_format format)
 {
     const struct number_size size = arguments->size;
-    const size_t texels = (size_t)size.width * size.height * 4;
-    void *pixels = malloc(texels * (format == PICTURE_EXR ? sizeof(float) : 1));
+    const uint32_t samples = sample_count(arguments);
+    const size_t values = (size_t)size.width * samples * size.height * samples * 4;
+    void *pixels = malloc(values * (format == PICTURE_EXR ? sizeof(float) : 1));
     if (!pixels) {
         report_error(EXIT_FAILED, "%ux%u: out of memory", size.width, size.height);
         return TRL_ERROR_MEMORY;
     }
-    trl_result result = format == PICTURE_EXR ? trl_renderer_read_radiance(renderer, pixels)
-                                              : trl_renderer_read_rgba8(renderer, pixels);
-    if (result == TRL_OK) {
-        result =
-            format == PICTURE_EXR
-                ? trl_image_write_exr(app->ctx, arguments->output, size.width, size.height, pixels)
-                : trl_image_write_png(app->ctx, arguments->output, size.width, size.height, pixels);
+    trl_result result;
+    if (format == PICTURE_EXR) {
+        result = trl_renderer_read_radiance(renderer, pixels);
+        if (result == TRL_OK && samples > 1) {
+            shrink_radiance(pixels, size.width, size.height, samples);
+        }
+        if (result == TRL_OK) {
+            result =
+                trl_image_write_exr(app->ctx, arguments->output, size.width, size.height, pixels);
+        }
+    } else {
+        result = trl_renderer_read_rgba8(renderer, pixels);
+        if (result == TRL_OK && samples > 1) {
+            shrink_srgb(pixels, size.width, size.height, samples);
+        }
+        if (result == TRL_OK) {
+            result =
+                trl_image_write_png(app->ctx, arguments->output, size.width, size.height, pixels);
+        }
     }
     free(pixels);
     return result;
@@ -148,9 +178,10 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     trl_result result = trl_renderer_create(app->ctx, &desc, &renderer);
     // The driver compiles in the first frame: the times that are worth telling are a later one's.
     const int frames = arguments->shows_timings ? 2 : 1;
+    const uint32_t samples = sample_count(arguments);
     for (int i = 0; result == TRL_OK && i < frames; i++) {
-        result =
-            trl_renderer_draw(renderer, view, arguments->size.width, arguments->size.height, 0.0);
+        result = trl_renderer_draw(renderer, view, arguments->size.width * samples,
+                                   arguments->size.height * samples, 0.0);
     }
     // The last moment to be stopped: what follows takes no time and writes the file.
     if (result == TRL_OK && !progress_report(&app->progress, "writing", 0.0)) {

@@ -81,6 +81,17 @@ class Pictures(ProgramTest):
         for options in changes:
             self.assertNotEqual(draw(*options), plain, options)
 
+    def test_samples_smooth_a_picture_of_the_same_size(self):
+        pictures = []
+        for samples in ["1", "2"]:
+            self.expect_success("render", self.scene, "--size", "32x18", "--ev100", "12",
+                                "--samples", samples, "-o", "a.png")
+            pictures.append(read_png(self.work / "a.png"))
+        self.assertEqual(pictures[0][:2], pictures[1][:2])
+        self.assertNotEqual(pictures[0][2], pictures[1][2])
+        for wrong in ["0", "5", "1.5", "x"]:
+            self.expect_failure(2, ["render", self.scene, "--samples", wrong], ["--samples"])
+
     def test_a_view_from_one_pixel(self):
         for size in ["1x1", "1x37", "37x1"]:
             self.expect_success("render", self.scene, "--size", size, "-o", "a.png")

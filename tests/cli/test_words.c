@@ -4,6 +4,7 @@
 // memory (which the sanitised build checks).
 #include "cli/csv.h"
 #include "cli/options.h"
+#include "cli/shrink.h"
 
 #include <fcntl.h>
 #include <math.h>
@@ -263,6 +264,27 @@ static void the_nearest_name_is_near(void **state)
     assert_null(report_nearest(longest, names, 5));
 }
 
+static void blocks_are_averaged_as_light(void **state)
+{
+    (void)state;
+    // Two blocks of 2 x 2: half black and half white, and one grey.
+    uint8_t codes[32];
+    float light[32];
+    for (int y = 0; y < 2; y++) {
+        for (int x = 0; x < 4; x++) {
+            for (int c = 0; c < 4; c++) {
+                codes[4 * (4 * y + x) + c] = (uint8_t)(x < 2 ? 255 * y : 100);
+                light[4 * (4 * y + x) + c] = (float)(x < 2 ? 8 * y : 3);
+            }
+        }
+    }
+    shrink_srgb(codes, 2, 1, 2);
+    assert_int_equal(codes[0], 188); // the sRGB code of half the light
+    assert_int_equal(codes[4], 100);
+    shrink_radiance(light, 2, 1, 2);
+    assert_true(fabsf(light[0] - 4) < 1e-6f && fabsf(light[4] - 3) < 1e-6f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -270,6 +292,7 @@ int main(void)
         cmocka_unit_test(random_words_are_read_or_refused),
         cmocka_unit_test(random_tables_are_read_or_refused),
         cmocka_unit_test(the_nearest_name_is_near),
+        cmocka_unit_test(blocks_are_averaged_as_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
