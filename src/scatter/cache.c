@@ -4,10 +4,13 @@
 
 #include "base/file.h"
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-enum { FORMAT_VERSION = 5, SAMPLES = 256, PIECES = 6 };
+enum { FORMAT_VERSION = 5, SAMPLES = 256, PIECES = 6, FILES_KEPT = 9 };
 
 // FNV-1a over words of eight bytes; a last short word is filled with zeros. Not for enemies: it
 // finds accidents.
@@ -171,9 +174,42 @@ bool cache_load(struct atmosphere *a, const struct solver_settings *settings)
         trl_log(a->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_CACHE,
                 "%s is damaged; the atmosphere is solved again", path);
     }
+    if (is_loaded) {
+        (void)utimensat(AT_FDCWD, path, NULL, 0); // used now, so kept longest
+    }
     mem_free(a->ctx, data);
     mem_free(a->ctx, path);
     return is_loaded;
+}
+
+// Removes the files that were used longest ago, so that scenes in the making do not fill the disk.
+static void evict(const struct atmosphere *a)
+{
+    for (;;) {
+        DIR *folder = opendir(a->ctx->cache_dir);
+        char oldest[sizeof((struct dirent *)0)->d_name] = "";
+        struct timespec oldest_time = {0};
+        int count = 0;
+        for (struct dirent *entry; folder && (entry = readdir(folder));) {
+            struct stat info;
+            if (strncmp(entry->d_name, "atmosphere-", 11) != 0 ||
+                fstatat(dirfd(folder), entry->d_name, &info, 0) != 0 || !S_ISREG(info.st_mode)) {
+                continue;
+            }
+            count++;
+            if (count == 1 || info.st_mtim.tv_sec < oldest_time.tv_sec) {
+                oldest_time = info.st_mtim;
+                memcpy(oldest, entry->d_name, sizeof oldest);
+            }
+        }
+        const bool is_removed = count > FILES_KEPT && unlinkat(dirfd(folder), oldest, 0) == 0;
+        if (folder) {
+            closedir(folder);
+        }
+        if (!is_removed) {
+            return;
+        }
+    }
 }
 
 void cache_store(const struct atmosphere *a, const struct solver_settings *settings)
@@ -197,6 +233,7 @@ void cache_store(const struct atmosphere *a, const struct solver_settings *setti
                                 .checksum = hash_bytes(key, data + sizeof header, bytes),
                                 .orders = a->solution.orders};
         memcpy(data, &header, sizeof header);
+        evict(a);
         result = file_write(&quiet, path, data, sizeof header + bytes);
     }
     if (result != TRL_OK) {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #ifndef SCATTER_CACHE_H
 #define SCATTER_CACHE_H
-// Solved atmospheres on disk, named by a hash of all that they depend on.
+// Solved atmospheres on disk, named by a hash of all that they depend on; the ten used last are
+// kept.
 
 #include "scatter/atmosphere.h"
 
