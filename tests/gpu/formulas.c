@@ -5,6 +5,7 @@
 
 #include "shared/phase.glsl"
 #include "shared/profile.glsl"
+#include "shared/sky_map.glsl"
 
 #include <math.h>
 
@@ -75,11 +76,45 @@ static void profiles_agree(void **state)
     gpu_program_finish(&program);
 }
 
+// Coordinates are compared as they are used: the finest table has 256 texels, and this is a
+// twentieth of one. Roots near 0 leave a float no more.
+static void assert_same_texel(float got, double wanted)
+{
+    if (!(fabs((double)got - wanted) <= 2e-4)) {
+        fail_msg("GPU %.9g, C %.17g", (double)got, wanted);
+    }
+}
+
+static void maps_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    gpu_program_set_float(&program, "u_wants_map", 1);
+    const float distance[] = {1000, 1500, 90000, 700000, 1000000, 1133000};
+    const float mu[] = {-0.28f, -0.1f, -0.02f, 0, 0.003f, 0.2f, 1};
+    const float altitude[] = {0, 2, 8848, 99000};
+    for (size_t i = 0; i < sizeof distance / sizeof distance[0]; i++) {
+        for (size_t j = 0; j < sizeof mu / sizeof mu[0]; j++) {
+            const float high = altitude[(i + j) % 4];
+            const float map[4] = {distance[i], 1133000, mu[j], high};
+            gpu_program_set_vec4(&program, "u_map", map);
+            const struct texel got = draw(f, &program);
+            const double lowest = sky_map_lowest_sun(6371000, (double)high, 0.99998915, 0.0046529);
+            assert_same_texel(got.rgba[0], sky_map_view((double)distance[i], 1000, 1133000));
+            assert_same_texel(got.rgba[1], sky_map_sun((double)mu[j], -0.07, 0.07, -2, 3.4));
+            assert_same_texel(got.rgba[2], sky_map_sunlight((double)mu[j], lowest, 0.01));
+            assert_same_texel(got.rgba[3], sky_map_depth((double)distance[i], 1000, 1133000));
+        }
+    }
+    gpu_program_finish(&program);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(phase_functions_agree),
         cmocka_unit_test(profiles_agree),
+        cmocka_unit_test(maps_agree),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }

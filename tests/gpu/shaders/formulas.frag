@@ -3,10 +3,13 @@
 // The formulas that C and GLSL share, at the arguments of a test.
 #include "shared/phase.glsl"
 #include "shared/profile.glsl"
+#include "shared/sky_map.glsl"
 
 uniform vec4 u_angle; // cosine, g
 uniform vec4 u_shell; // altitude, scale height, centre, half width
+uniform vec4 u_map;   // distance, its largest, cosine of a zenith angle, altitude
 uniform float u_wants_profile;
+uniform float u_wants_map;
 layout(location = 0) out vec4 o_color;
 
 void main()
@@ -16,5 +19,9 @@ void main()
                        phase_cornette_shanks(u_angle.x, u_angle.y));
     vec4 profiles = vec4(profile_exponential(u_shell.x, u_shell.y),
                          profile_tent(u_shell.x, u_shell.z, u_shell.w), 0.0, 0.0);
-    o_color = u_wants_profile > 0.5 ? profiles : phases;
+    float lowest = sky_map_lowest_sun(6371000.0, u_map.w, 0.99998915, 0.0046529);
+    vec4 maps =
+        vec4(sky_map_view(u_map.x, 1000.0, u_map.y), sky_map_sun(u_map.z, -0.07, 0.07, -2.0, 3.4),
+             sky_map_sunlight(u_map.z, lowest, 0.01), sky_map_depth(u_map.x, 1000.0, u_map.y));
+    o_color = u_wants_map > 0.5 ? maps : (u_wants_profile > 0.5 ? profiles : phases);
 }
