@@ -20,6 +20,7 @@ enum { EXIT_SKIP = 77 };
 struct earth {
     trl_context *ctx;
     struct raster_grid elevation, water, colorado;
+    bool has_lakes; // only the mask from npm shows inland waters (docs/data.md)
 };
 
 static void load(trl_context *ctx, const char *name, struct raster_grid *out)
@@ -44,6 +45,10 @@ static int set_up(void **state)
     load(earth.ctx, "elevation.tif", &earth.elevation);
     load(earth.ctx, "water.tif", &earth.water);
     load(earth.ctx, "colorado.tif", &earth.colorado);
+    char *mask = mem_printf(earth.ctx, "%s/packages/three-globe@2.45.2.tgz",
+                            trl_context_data_dir(earth.ctx));
+    earth.has_lakes = mask && access(mask, R_OK) == 0;
+    mem_free(earth.ctx, mask);
     *state = &earth;
     return 0;
 }
@@ -69,31 +74,30 @@ struct place {
     const char *name;
     double lat_deg, lon_deg;
     double min_m, max_m;
-    bool is_water;
+    enum { DRY, SEA, LAKE } water;
 };
 
 // Bounds are published heights of broad, even places, plus and minus what docs/data.md states for
 // the source: 30 m in lowlands, 8 % above, and 10 % at sea, where ETOPO5 is older than modern
 // soundings.
-static const struct place PLACES[] = {
-    {"Tibetan plateau", 33.5, 88, 4600, 5300, false},
-    {"Altiplano", -18, -68, 3500, 4100, false},
-    {"Denver", 39.74, -104.95, 1450, 1750, false},
-    {"Ganges plain", 27, 80, 60, 180, false},
-    {"Amazon, Manaus", -2.8, -60.2, 0, 150, false},
-    {"Netherlands, Utrecht", 52.1, 5.1, 0, 40, false},
-    {"Berlin", 52.5, 13.4, 5, 80, false},
-    {"Caspian Sea", 42, 51, -40, 40, true},
-    {"Black Sea", 43, 34, -2420, -1980, true},
-    {"North Sea", 56, 3, -90, -40, true},
-    {"Bay of Biscay", 45.5, -7, -5300, -4300, true},
-    {"Hawaiian abyss", 25, -150, -5900, -4700, true},
-    {"Challenger deep, nearby", 11.35, 142.2, -11000, -7000, true},
-    {"Ross ice shelf", -81, -175, 0, 100, false},
-    {"Antarctic plateau", -80, 90, 3300, 4200, false},
-    {"Greenland ice", 72, -40, 2700, 3400, false},
-    {"Dead Sea", 31.5, 35.48, -700, -100, true},
-    {"Lake Victoria", -1, 33, 1050, 1250, true}};
+static const struct place PLACES[] = {{"Tibetan plateau", 33.5, 88, 4600, 5300, DRY},
+                                      {"Altiplano", -18, -68, 3500, 4100, DRY},
+                                      {"Denver", 39.74, -104.95, 1450, 1750, DRY},
+                                      {"Ganges plain", 27, 80, 60, 180, DRY},
+                                      {"Amazon, Manaus", -2.8, -60.2, 0, 150, DRY},
+                                      {"Netherlands, Utrecht", 52.1, 5.1, 0, 40, DRY},
+                                      {"Berlin", 52.5, 13.4, 5, 80, DRY},
+                                      {"Caspian Sea", 42, 51, -40, 40, LAKE},
+                                      {"Black Sea", 43, 34, -2420, -1980, SEA},
+                                      {"North Sea", 56, 3, -90, -40, SEA},
+                                      {"Bay of Biscay", 45.5, -7, -5300, -4300, SEA},
+                                      {"Hawaiian abyss", 25, -150, -5900, -4700, SEA},
+                                      {"Challenger deep, nearby", 11.35, 142.2, -11000, -7000, SEA},
+                                      {"Ross ice shelf", -81, -175, 0, 100, DRY},
+                                      {"Antarctic plateau", -80, 90, 3300, 4200, DRY},
+                                      {"Greenland ice", 72, -40, 2700, 3400, DRY},
+                                      {"Dead Sea", 31.5, 35.48, -700, -100, LAKE},
+                                      {"Lake Victoria", -1, 33, 1050, 1250, LAKE}};
 
 static void known_places_have_their_height(void **state)
 {
@@ -104,7 +108,9 @@ static void known_places_have_their_height(void **state)
         const double water = value_at(&earth->water, p->lat_deg, p->lon_deg);
         print_message("%-26s %8.1f m, water %3.0f\n", p->name, metres, water);
         assert_true(metres >= p->min_m && metres <= p->max_m);
-        assert_true(p->is_water ? water > 128 : water < 128);
+        if (p->water != LAKE || earth->has_lakes) {
+            assert_true(p->water != DRY ? water > 128 : water < 128);
+        }
     }
 }
 
