@@ -37,6 +37,15 @@ double optics_shell(const struct optics *optics, double altitude_m)
                        altitude_m / (optics->top_radius_m - optics->ground_radius_m));
 }
 
+double optics_largest_depth(const struct optics *optics)
+{
+    double depth = 0;
+    for (int k = 0; k < optics->wavelength_count; k++) {
+        depth = fmax(depth, optics->vertical_depth[k]);
+    }
+    return depth;
+}
+
 double optics_altitude(const struct optics *optics, double shell)
 {
     return interpolate(optics->altitude_of_shell, shell);

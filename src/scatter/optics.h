@@ -43,6 +43,9 @@ struct optics {
 void optics_init(struct optics *optics, const struct medium *medium, const double *wavelength_nm,
                  int count);
 
+// The largest vertical optical depth over the wavelengths: grids and rules grow with it.
+double optics_largest_depth(const struct optics *optics);
+
 double optics_shell(const struct optics *optics, double altitude_m);       // u, clamped to [0, 1]
 double optics_altitude(const struct optics *optics, double shell);         // m
 double optics_shell_slope(const struct optics *optics, double altitude_m); // du/dh, per m, > 0

@@ -125,10 +125,7 @@ void query_radiance(struct query *query, const struct query_view *view, lanes *r
 {
     const struct solution *s = query->solution;
     const struct optics *optics = s->optics;
-    double depth = 0;
-    for (int k = 0; k < LANES; k++) {
-        depth = fmax(depth, optics->vertical_depth[k]);
-    }
+    const double depth = optics_largest_depth(optics);
     struct ray_desc desc = {.radius_m = view->radius_m,
                             .mu = view->view_mu,
                             .nodes_per_shell =

@@ -30,10 +30,7 @@ static int choose_degree(const struct optics *optics, double allowed)
 struct solver_settings solver_settings_choose(const struct optics *optics,
                                               enum solver_quality quality)
 {
-    double depth = 0;
-    for (int k = 0; k < optics->wavelength_count; k++) {
-        depth = fmax(depth, optics->vertical_depth[k]);
-    }
+    const double depth = optics_largest_depth(optics);
     const bool is_precise = quality == SOLVER_PRECISE;
     // Beyond a depth of four the light is diffuse: grids grow slower than the depth.
     const double thick = depth < 4 ? depth : fmin(4 + 0.3 * (depth - 4), 8);

@@ -194,10 +194,7 @@ static struct transport_family gather(const struct table *table, const struct so
                                       struct table_worker *w)
 {
     const struct optics *optics = solution->optics;
-    double depth = 0;
-    for (int k = 0; k < LANES; k++) {
-        depth = fmax(depth, optics->vertical_depth[k]);
-    }
+    const double depth = optics_largest_depth(optics);
     const double nodes = NODES_PER_SHELL + MORE_NODES_PER_DEPTH * fmin(depth, 8);
     struct ray_desc desc = {.radius_m = radius_m,
                             .mu = mu,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the Terrella authors
 # SPDX-License-Identifier: MIT
-"""Fails where a folder includes one that stands below it (docs/internal.md), or an app a private header.
+"""Fails where a folder includes one that stands below it (docs/internals.md), or an app a private header.
 
 With --self-test, checks the checker against a small tree that breaks each rule once.
 """
