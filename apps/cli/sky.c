@@ -34,9 +34,14 @@ struct sky_arguments {
     const char *scene;
     struct number_list lists[PART_COUNT];
     const char *queries; // NULL: the lists
-    const char *output;  // NULL: standard output
+    int solver;          // index in solver_words
+    struct option_number orders, paths, seed;
+    const char *output; // NULL: standard output
     bool is_quiet;
 };
+
+static const char *const solver_words[] = {"spectral", "reference", NULL};
+static const trl_sky_model solver_models[] = {TRL_SKY_SPECTRAL, TRL_SKY_REFERENCE};
 
 // The queries, and each number as it was given.
 struct questions {
@@ -49,13 +54,16 @@ static const char about[] =
     "Prints the spectral radiance that reaches an observer, as CSV with the column\n"
     "radiance_W_m2_sr_nm behind those of the query: all orders of scattering, the\n"
     "ground where the line of sight meets it, no solar disc. The light transport is\n"
-    "solved at exactly the wavelengths asked for.\n"
+    "solved at exactly the wavelengths asked for. The path tracer (--solver reference)\n"
+    "adds the column standard_error, of its noise.\n"
     "A LIST is numbers separated by commas; from:to:step stands for a row of them.\n"
     "All combinations of the lists are answered, wavelengths running fastest.\n";
 static const char examples[] =
     "  terrella sky scenes/earth.json --altitude 0 --sun-zenith 60 \\\n"
     "      --view-zenith 0:90:10 --azimuth 0,180 --wavelength 450,550,650\n"
-    "  terrella sky scenes/earth.json --queries questions.csv -o answers.csv\n";
+    "  terrella sky scenes/earth.json --queries questions.csv -o answers.csv\n"
+    "  terrella sky scenes/earth.json --altitude 0 --sun-zenith 60 --view-zenith 45 \\\n"
+    "      --azimuth 90 --wavelength 550 --solver reference --paths 100000\n";
 
 static const char *const helps[PART_COUNT] = {
     "Metres of the observer above the reference sphere; may be above the atmosphere.",
@@ -86,6 +94,38 @@ static enum options_outcome read_arguments(int argc, char **argv, struct sky_arg
                         .help = "Instead of all these: a table with the columns altitude_m, "
                                 "sun_zenith_deg, view_zenith_deg, azimuth_deg, wavelength_nm in "
                                 "any order, one query a row; - reads standard input."};
+    const struct option solver[] = {
+        {.name = "solver",
+         .kind = OPTION_CHOICE,
+         .target.choice = &out->solver,
+         .choices = solver_words,
+         .metavar = "NAME",
+         .help = "spectral (all orders of scattering, deterministic; the default) or reference (a "
+                 "Monte Carlo path tracer to judge the others by: slow)."},
+        {.name = "orders",
+         .kind = OPTION_NUMBER,
+         .target.number = &out->orders,
+         .metavar = "K",
+         .range = {1, TRL_SKY_MAX_ORDERS},
+         .is_whole = true,
+         .word = "all",
+         .help = "Scatterings and reflections by the ground that light may have. Default: all."},
+        {.name = "paths",
+         .kind = OPTION_NUMBER,
+         .target.number = &out->paths,
+         .metavar = "N",
+         .range = {2, 1e12},
+         .is_whole = true,
+         .help = "Of the path tracer for each query: four times as many halve the noise. Default: "
+                 "10000."},
+        {.name = "seed",
+         .kind = OPTION_NUMBER,
+         .target.number = &out->seed,
+         .metavar = "N",
+         .range = {0, 9007199254740992},
+         .is_whole = true,
+         .help = "Of the path tracer: the same seed gives the same numbers. Default: 0."},
+    };
     const struct option result[] = {
         {.name = "output",
          .letter = 'o',
@@ -100,7 +140,8 @@ static enum options_outcome read_arguments(int argc, char **argv, struct sky_arg
          .help = "No progress line."},
     };
     const struct option_section sections[] = {{"Query", query, PART_COUNT + 1},
-                                              {"Result", result, 2}};
+                                              {"Solver", solver, sizeof solver / sizeof *solver},
+                                              {"Result", result, sizeof result / sizeof *result}};
     const struct option_spec spec = {.command = "sky",
                                      .positional = "SCENE",
                                      .min_positionals = 1,
@@ -108,7 +149,7 @@ static enum options_outcome read_arguments(int argc, char **argv, struct sky_arg
                                      .about = about,
                                      .examples = examples,
                                      .sections = sections,
-                                     .section_count = 2};
+                                     .section_count = sizeof sections / sizeof *sections};
     struct option_arguments words;
     const enum options_outcome outcome = options_read(&spec, argc, argv, &words);
     out->scene = words.positionals[0];
@@ -215,53 +256,92 @@ static enum exit_status read_table(const struct csv_table *table, struct questio
     return status;
 }
 
-static void print_answers(FILE *stream, const struct questions *questions, const double *radiance)
+// One number a query, and its noise where there is some.
+struct answers {
+    double *radiance;       // owned
+    double *standard_error; // owned; NULL: the solver has none
+};
+
+static void print_answers(FILE *stream, const struct questions *questions,
+                          const struct answers *answers)
 {
     for (int i = 0; i < PART_COUNT; i++) {
         fprintf(stream, "%s,", parts[i].column);
     }
-    fprintf(stream, "radiance_W_m2_sr_nm\n");
+    fprintf(stream, "radiance_W_m2_sr_nm%s\n", answers->standard_error ? ",standard_error" : "");
     for (size_t q = 0; q < questions->count; q++) {
         for (int i = 0; i < PART_COUNT; i++) {
             fprintf(stream, "%s,", questions->texts[q][i]);
         }
-        fprintf(stream, "%.9g\n", radiance[q]);
+        fprintf(stream, "%.9g", answers->radiance[q]);
+        if (answers->standard_error) {
+            fprintf(stream, ",%.3g", answers->standard_error[q]);
+        }
+        fputc('\n', stream);
     }
 }
 
-static enum exit_status solve(struct app *app, const char *scene_path,
-                              const struct questions *questions, double *radiance)
+static trl_sky_desc make_desc(const struct sky_arguments *arguments)
 {
+    trl_sky_desc desc = trl_sky_desc_default();
+    desc.model = solver_models[arguments->solver];
+    if (arguments->orders.is_given && !arguments->orders.is_word) {
+        desc.max_orders = (uint32_t)arguments->orders.value;
+    }
+    if (arguments->paths.is_given) {
+        desc.paths = (uint64_t)arguments->paths.value;
+    }
+    if (arguments->seed.is_given) {
+        desc.seed = (uint64_t)arguments->seed.value;
+    }
+    return desc;
+}
+
+static enum exit_status solve(struct app *app, const struct sky_arguments *arguments,
+                              const struct questions *questions, struct answers *answers)
+{
+    const trl_sky_desc desc = make_desc(arguments);
     trl_scene *scene = NULL;
-    trl_result result = trl_scene_load(app->ctx, scene_path, &scene);
+    trl_result result = trl_scene_load(app->ctx, arguments->scene, &scene);
     if (result == TRL_OK && questions->count > 0) {
-        result = trl_sky_radiance(app->ctx, scene, questions->queries, questions->count, radiance);
+        result = trl_sky_radiance(app->ctx, scene, &desc, questions->queries, questions->count,
+                                  answers->radiance, answers->standard_error);
     }
     trl_scene_destroy(&scene);
     return report_result(result);
+}
+
+static enum exit_status allocate_answers(const struct sky_arguments *arguments, size_t count,
+                                         struct answers *out)
+{
+    const bool has_error = solver_models[arguments->solver] == TRL_SKY_REFERENCE;
+    out->radiance = calloc(count + 1, sizeof *out->radiance);
+    out->standard_error = has_error ? calloc(count + 1, sizeof *out->standard_error) : NULL;
+    return out->radiance && (out->standard_error || !has_error)
+               ? EXIT_OK
+               : report_error(EXIT_FAILED, "sky: no memory for %zu queries", count);
 }
 
 static enum exit_status answer(struct app *app, const struct sky_arguments *arguments,
                                const struct questions *questions)
 {
     struct output_text output = {0};
-    double *radiance = calloc(questions->count + 1, sizeof *radiance);
-    enum exit_status status =
-        radiance ? EXIT_OK
-                 : report_error(EXIT_FAILED, "sky: no memory for %zu queries", questions->count);
+    struct answers answers = {0};
+    enum exit_status status = allocate_answers(arguments, questions->count, &answers);
     if (status == EXIT_OK) {
         status = output_text_begin(arguments->output, &output);
     }
     if (status == EXIT_OK) {
-        status = solve(app, arguments->scene, questions, radiance);
+        status = solve(app, arguments, questions, &answers);
     }
     if (status == EXIT_OK) {
         progress_clear(&app->progress);
-        print_answers(output.stream, questions, radiance);
+        print_answers(output.stream, questions, &answers);
         status = output_text_commit(&output);
     }
     output_text_abort(&output);
-    free(radiance);
+    free(answers.radiance);
+    free(answers.standard_error);
     return status;
 }
 
@@ -286,6 +366,10 @@ static enum exit_status run(struct app *app, const struct sky_arguments *argumen
 
 static enum exit_status check_arguments(const struct sky_arguments *arguments)
 {
+    const bool is_traced = solver_models[arguments->solver] == TRL_SKY_REFERENCE;
+    if (!is_traced && (arguments->paths.is_given || arguments->seed.is_given)) {
+        return report_error(EXIT_USAGE, "sky: --paths and --seed belong to --solver reference");
+    }
     for (int i = 0; arguments->queries && i < PART_COUNT; i++) {
         if (arguments->lists[i].count > 0) {
             return report_error(EXIT_USAGE, "sky: --queries and --%s cannot both be given",

@@ -17,17 +17,41 @@ typedef struct trl_sky_query {
     double wavelength_nm;   ///< > 0
 } trl_sky_query;
 
+/// How the light of the sky is found.
+typedef enum trl_sky_model {
+    TRL_SKY_SPECTRAL, ///< all orders, wavelength by wavelength (Elek 2010 and beyond): the default
+    TRL_SKY_REFERENCE ///< a Monte Carlo path tracer that shares no transport code with the others:
+                      ///< slow, unbiased, with a standard error
+} trl_sky_model;
+
+typedef struct trl_sky_desc {
+    uint32_t canary;     ///< set by trl_sky_desc_default(); never touch
+    trl_sky_model model; ///< default TRL_SKY_SPECTRAL
+    uint32_t max_orders; ///< scatterings and reflections by the ground that light may have, at most
+                         ///< TRL_SKY_MAX_ORDERS; 0 (default): all
+    uint64_t paths;      ///< TRL_SKY_REFERENCE: for each query, [2, 1e12]; default 10000
+    uint64_t seed;       ///< TRL_SKY_REFERENCE: same seed, same numbers, on any number of threads
+} trl_sky_desc;
+
+enum { TRL_SKY_MAX_ORDERS = 1000 };
+
+/// A desc with every default set. Threads: any.
+TRL_API trl_sky_desc trl_sky_desc_default(void);
+
 /// Spectral radiance in W m^-2 sr^-1 nm^-1 that arrives at the observer from each direction asked
-/// for: all orders of scattering, light reflected by the Lambertian ground where the ray meets it,
-/// no solar disc. The transport is solved at exactly the wavelengths of the queries. Blocks for
-/// seconds; uses every core.
-/// @param[out] radiance  `count` values, finite
-/// @return TRL_OK; TRL_ERROR_INVALID (a query out of range, its index in the log);
-/// TRL_ERROR_MEMORY;
-///         TRL_ERROR_CANCELLED
+/// for: scattered light, light reflected by the Lambertian ground where the ray meets it, no solar
+/// disc. The transport is solved at exactly the wavelengths of the queries. Blocks for seconds;
+/// uses every core; tells progress.
+/// @param desc                 NULL: the default
+/// @param[out] radiance        `count` values, finite
+/// @param[out] standard_error  `count` values in the same unit, of the path tracer's noise; 0 for
+///                             the models that have none. May be NULL
+/// @return TRL_OK; TRL_ERROR_INVALID (a query out of range, its index in the log; a field of the
+///         desc); TRL_ERROR_MEMORY; TRL_ERROR_CANCELLED
 TRL_API TRL_MUST_USE trl_result trl_sky_radiance(trl_context *ctx, const trl_scene *scene,
+                                                 const trl_sky_desc *desc,
                                                  const trl_sky_query *queries, size_t count,
-                                                 double *radiance);
+                                                 double *radiance, double *standard_error);
 
 /// The light transport of one scene, solved for pictures: moments of all orders and the 4D table.
 /// A renderer makes its own; this is for programs that want to know what it costs, or to fill the

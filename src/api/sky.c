@@ -2,11 +2,21 @@
 // SPDX-License-Identifier: MIT
 #include <terrella/atmosphere.h>
 
+#include "api/check.h"
+#include "reference/path_tracer.h"
 #include "scatter/query.h"
 #include "scene/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+enum { SKY_CANARY = 0x54534b31 };
+static const uint64_t MAX_PATHS = 1000000000000;
+
+trl_sky_desc trl_sky_desc_default(void)
+{
+    return (trl_sky_desc){.canary = SKY_CANARY, .model = TRL_SKY_SPECTRAL, .paths = 10000};
+}
 
 static trl_result check_query(const trl_context *ctx, const struct medium *medium,
                               const trl_sky_query *q, size_t index)
@@ -78,7 +88,8 @@ static trl_result answer_batch(const trl_context *ctx, const struct solution *so
 }
 
 static trl_result solve_and_answer(const trl_context *ctx, const struct medium *medium,
-                                   const trl_sky_query *queries, size_t count, double *radiance)
+                                   const trl_sky_desc *desc, const trl_sky_query *queries,
+                                   size_t count, double *radiance)
 {
     double *nm = mem_alloc(ctx, count, sizeof *nm);
     struct optics *optics = mem_alloc(ctx, 1, sizeof *optics);
@@ -93,7 +104,8 @@ static trl_result solve_and_answer(const trl_context *ctx, const struct medium *
             break;
         }
         optics_init(optics, medium, nm + first, left < LANES ? (int)left : LANES);
-        const struct solver_settings settings = solver_settings_choose(optics, SOLVER_PRECISE);
+        struct solver_settings settings = solver_settings_choose(optics, SOLVER_PRECISE);
+        settings.orders = (int)desc->max_orders;
         struct solution solution;
         result = solution_init(ctx, optics, &settings, &solution);
         if (result == TRL_OK) {
@@ -106,23 +118,68 @@ static trl_result solve_and_answer(const trl_context *ctx, const struct medium *
     return result;
 }
 
-trl_result trl_sky_radiance(trl_context *ctx, const trl_scene *scene, const trl_sky_query *queries,
-                            size_t count, double *radiance)
+static trl_result trace(const trl_context *ctx, const struct medium *medium,
+                        const trl_sky_desc *desc, const trl_sky_query *queries, size_t count,
+                        double *radiance, double *standard_error)
+{
+    const struct reference_desc reference = {
+        .paths = desc->paths, .seed = desc->seed, .max_order = (int)desc->max_orders};
+    double *error = standard_error ? standard_error : mem_alloc(ctx, count, sizeof *error);
+    trl_result result = error || count == 0 ? TRL_OK : TRL_ERROR_MEMORY;
+    for (size_t n = 0; n < count && result == TRL_OK; n++) {
+        result = medium_check(ctx, medium, queries[n].wavelength_nm);
+    }
+    if (result == TRL_OK) {
+        result = reference_sky_radiance(ctx, medium, queries, count, &reference, radiance, error);
+    }
+    if (error != standard_error) {
+        mem_free(ctx, error);
+    }
+    return result;
+}
+
+static trl_result answer(const trl_context *ctx, const struct medium *medium,
+                         const trl_sky_desc *desc, const trl_sky_query *queries, size_t count,
+                         double *radiance, double *standard_error)
+{
+    for (size_t n = 0; standard_error && n < count; n++) {
+        standard_error[n] = 0;
+    }
+    switch (desc->model) {
+    case TRL_SKY_SPECTRAL:
+        return solve_and_answer(ctx, medium, desc, queries, count, radiance);
+    case TRL_SKY_REFERENCE:
+        return trace(ctx, medium, desc, queries, count, radiance, standard_error);
+    }
+    return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                    "trl_sky_desc.model %d is none of trl_sky_model", (int)desc->model);
+}
+
+static trl_result check_desc(const trl_context *ctx, const trl_sky_desc *desc)
+{
+    TRL_REQUIRE(ctx, desc->canary == SKY_CANARY);
+    TRL_REQUIRE(ctx, desc->max_orders <= TRL_SKY_MAX_ORDERS);
+    TRL_REQUIRE(ctx, desc->paths >= 2 && desc->paths <= MAX_PATHS);
+    return TRL_OK;
+}
+
+trl_result trl_sky_radiance(trl_context *ctx, const trl_scene *scene, const trl_sky_desc *desc,
+                            const trl_sky_query *queries, size_t count, double *radiance,
+                            double *standard_error)
 {
     if (!ctx) {
         return TRL_ERROR_INVALID;
     }
-    if (!scene || (count > 0 && (!queries || !radiance))) {
-        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
-                        "trl_sky_radiance: scene, queries and radiance must not be NULL");
+    TRL_REQUIRE(ctx, scene != NULL);
+    TRL_REQUIRE(ctx, count == 0 || (queries && radiance));
+    const trl_sky_desc all = desc ? *desc : trl_sky_desc_default();
+    trl_result result = check_desc(ctx, &all);
+    for (size_t n = 0; n < count && result == TRL_OK; n++) {
+        result = check_query(ctx, &scene->medium, &queries[n], n);
     }
-    for (size_t n = 0; n < count; n++) {
-        const trl_result result = check_query(ctx, &scene->medium, &queries[n], n);
-        if (result != TRL_OK) {
-            return result;
-        }
+    if (result == TRL_OK) {
+        result = answer(ctx, &scene->medium, &all, queries, count, radiance, standard_error);
     }
-    trl_result result = solve_and_answer(ctx, &scene->medium, queries, count, radiance);
     for (size_t n = 0; n < count && result == TRL_OK; n++) {
         if (!isfinite(radiance[n])) {
             result =

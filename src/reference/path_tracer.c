@@ -440,8 +440,7 @@ static double trace_path(const struct tracer *tracer, struct vec3 sun, struct sc
 // --- Queries ---
 
 // The observer at (0, 0, z), the sun above the x axis. False if the view misses the air.
-static bool start_path(const struct tracer *tracer, const struct reference_query *query,
-                       struct path *path)
+static bool start_path(const struct tracer *tracer, const trl_sky_query *query, struct path *path)
 {
     const double sine = sin(query->view_zenith_rad);
     path->direction = (struct vec3){sine * cos(query->azimuth_rad), sine * sin(query->azimuth_rad),
@@ -468,8 +467,8 @@ struct block {
     double sum, sum_of_squares;
 };
 
-static void trace_block(const struct tracer *tracer, const struct reference_query *query,
-                        uint64_t seed, struct scratch *scratch, struct block *block)
+static void trace_block(const struct tracer *tracer, const trl_sky_query *query, uint64_t seed,
+                        struct scratch *scratch, struct block *block)
 {
     const struct vec3 sun = {sin(query->sun_zenith_rad), 0, cos(query->sun_zenith_rad)};
     for (uint64_t i = 0; i < block->path_count; ++i) {
@@ -552,7 +551,7 @@ static trl_result scratches_init(const trl_context *ctx, size_t max_pieces,
 struct job {
     const trl_context *ctx;
     const struct medium *medium;
-    const struct reference_query *queries;
+    const trl_sky_query *queries;
     size_t query_count;
     const struct reference_desc *desc;
     bool *is_done;
@@ -646,7 +645,7 @@ static trl_result trace_wavelength(struct job *job, double wavelength_nm)
     return result;
 }
 
-static bool is_valid(const struct reference_query *query)
+static bool is_valid(const trl_sky_query *query)
 {
     return isfinite(query->altitude_m) && query->altitude_m >= 0 && query->sun_zenith_rad >= 0 &&
            query->sun_zenith_rad <= pi && query->view_zenith_rad >= 0 &&
@@ -655,7 +654,7 @@ static bool is_valid(const struct reference_query *query)
 }
 
 trl_result reference_sky_radiance(const trl_context *ctx, const struct medium *medium,
-                                  const struct reference_query *queries, size_t count,
+                                  const trl_sky_query *queries, size_t count,
                                   const struct reference_desc *desc, double *radiance,
                                   double *standard_error)
 {

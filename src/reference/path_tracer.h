@@ -7,16 +7,9 @@
 // medium. It has no bias but that of its optical depths, whose quadrature is good to about 1e-5.
 
 #include "scatter/medium.h"
+#include <terrella/atmosphere.h>
 
 #include <stdint.h>
-
-struct reference_query {
-    double altitude_m;      // >= 0; may be above the atmosphere
-    double sun_zenith_rad;  // [0, pi]
-    double view_zenith_rad; // [0, pi]; above pi/2 looks down
-    double azimuth_rad;     // of the view, from the sun's
-    double wavelength_nm;   // > 0
-};
 
 struct reference_desc {
     uint64_t paths; // a query, >= 2: a standard error needs two
@@ -30,7 +23,7 @@ struct reference_desc {
 // horizon. TRL_OK, TRL_ERROR_INVALID (the query's index in the log), TRL_ERROR_MEMORY,
 // TRL_ERROR_CANCELLED.
 TRL_MUST_USE trl_result reference_sky_radiance(const trl_context *ctx, const struct medium *medium,
-                                               const struct reference_query *queries, size_t count,
+                                               const trl_sky_query *queries, size_t count,
                                                const struct reference_desc *desc, double *radiance,
                                                double *standard_error);
 

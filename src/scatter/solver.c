@@ -301,6 +301,9 @@ static trl_result run_orders(struct iteration *it, struct solution *out, lanes *
         one[i] = lanes_set(1);
     }
     for (int order = 1;; order++) {
+        if (order == it->settings->orders) {
+            return TRL_OK; // the last order is integrated where it is looked at
+        }
         const trl_result result = compute_order(it, order == 1);
         if (result != TRL_OK) {
             return result;

@@ -20,8 +20,9 @@ struct solver_settings {
     int first_refinement; // the first order, which is peaked, has this many times more of both
     double nodes_per_shell;
     double first_nodes_per_shell; // of the first order, which has the kink of the planet's shadow
-    int max_orders;
-    double tolerance; // the orders left out, relative to the sum
+    int orders;                   // exactly these, and no tail; 0: until the tolerance is met
+    int max_orders;               // then the tail is closed as it stands
+    double tolerance;             // the orders left out, relative to the sum
 };
 
 // Grids by the medium's optical depth and the sharpness of its phase functions.

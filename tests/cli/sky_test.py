@@ -63,6 +63,35 @@ class Answers(ProgramTest):
         shown = [line.split(",")[2] for line in done.stdout.splitlines()[1:]]
         self.assertEqual(shown, ["0", "0.1", "0.2", "0.3", "80", "70", "60"])
 
+    def test_solvers_agree_and_orders_add_up(self):
+        views = ["sky", self.scene, "--altitude", "0", "--sun-zenith", "50", "--view-zenith", "30,70",
+                 "--azimuth", "90", "--wavelength", "550"]
+        solved = self.columns(self.expect_success(*views).stdout, "radiance_W_m2_sr_nm")
+        traced = self.expect_success(*views, "--solver", "reference", "--paths", "20000").stdout
+        self.assertTrue(traced.splitlines()[0].endswith(",radiance_W_m2_sr_nm,standard_error"))
+        again = self.expect_success(*views, "--solver", "reference", "--paths", "20000", "--seed", "0").stdout
+        self.assertEqual(traced, again)
+        for exact, value, error in zip(solved, self.columns(traced, "radiance_W_m2_sr_nm"),
+                                       self.columns(traced, "standard_error")):
+            self.assertGreater(error, 0.0)
+            # Four standard errors: one in 16 000 by chance; 0.5 % is what the solver may be off.
+            self.assertLess(abs(value - exact), 4 * error + 5e-3 * exact)
+        sums = [self.columns(self.expect_success(*views, "--orders", orders).stdout, "radiance_W_m2_sr_nm")
+                for orders in ["1", "2", "all"]]
+        for first, second, everything in zip(*sums):
+            self.assertLess(1.02 * first, second)
+            self.assertLess(second, everything)
+        self.assertEqual(sums[2], solved)
+        single = self.expect_success(*views, "--solver", "reference", "--paths", "20000", "--orders", "1").stdout
+        for exact, value, error in zip(sums[0], self.columns(single, "radiance_W_m2_sr_nm"),
+                                       self.columns(single, "standard_error")):
+            self.assertLess(abs(value - exact), 4 * error + 5e-3 * exact)
+
+    @staticmethod
+    def columns(text, name):
+        lines = [line.split(",") for line in text.splitlines()]
+        return [float(line[lines[0].index(name)]) for line in lines[1:]]
+
     def test_needs_no_gl(self):
         self.environment.update(LIBGL_DRIVERS_PATH="/nonexistent", __EGL_VENDOR_LIBRARY_DIRS="/nonexistent",
                                 DISPLAY="")

@@ -38,14 +38,14 @@ static int drop_context(void **state)
     return 0;
 }
 
-static struct reference_query make_query(double altitude_m, double sun_zenith_deg,
-                                         double view_zenith_deg, double azimuth_deg)
+static trl_sky_query make_query(double altitude_m, double sun_zenith_deg, double view_zenith_deg,
+                                double azimuth_deg)
 {
-    return (struct reference_query){.altitude_m = altitude_m,
-                                    .sun_zenith_rad = rad(sun_zenith_deg),
-                                    .view_zenith_rad = rad(view_zenith_deg),
-                                    .azimuth_rad = rad(azimuth_deg),
-                                    .wavelength_nm = 550};
+    return (trl_sky_query){.altitude_m = altitude_m,
+                           .sun_zenith_rad = rad(sun_zenith_deg),
+                           .view_zenith_rad = rad(view_zenith_deg),
+                           .azimuth_rad = rad(azimuth_deg),
+                           .wavelength_nm = 550};
 }
 
 static void check_z(const char *what, double got, double error, double expected, double max_error)
@@ -151,7 +151,7 @@ static double sun_transmittance(const struct medium *medium, double radius, doub
 
 // Single scattering and single reflection by midpoints along the ray, for an observer inside the
 // air.
-static double brute_first_order(const struct medium *medium, const struct reference_query *query)
+static double brute_first_order(const struct medium *medium, const trl_sky_query *query)
 {
     const double radius = medium->ground_radius_m + query->altitude_m;
     const double mu = cos(query->view_zenith_rad), mu_sun = cos(query->sun_zenith_rad);
@@ -187,7 +187,7 @@ static double brute_first_order(const struct medium *medium, const struct refere
 static void first_order_agrees_with_brute_quadrature(void **state)
 {
     const struct medium medium = earth_like_medium(0.3);
-    const struct reference_query queries[] = {
+    const trl_sky_query queries[] = {
         make_query(0, 30, 0, 0),      make_query(0, 30, 75, 0),     make_query(0, 85, 89, 30),
         make_query(0, 95, 60, 0),     make_query(0, 96, 85, 0),     make_query(12e3, 60, 95, 90),
         make_query(30e3, 80, 150, 0), make_query(59e3, 40, 120, 0), make_query(20e3, 100, 88, 10)};
@@ -211,8 +211,8 @@ static void thin_air_scatters_once(void **state)
         medium.constituents[i].scattering_per_m.constant *= 1e-4;
         medium.constituents[i].absorption_per_m.constant *= 1e-4;
     }
-    const struct reference_query queries[] = {make_query(0, 20, 40, 50), make_query(0, 70, 10, 0),
-                                              make_query(5e3, 60, 89, 180)};
+    const trl_sky_query queries[] = {make_query(0, 20, 40, 50), make_query(0, 70, 10, 0),
+                                     make_query(5e3, 60, 89, 180)};
     const struct reference_desc desc = {.paths = 20000, .seed = 12};
     double radiance[3], error[3];
     assert_int_equal(reference_sky_radiance(*state, &medium, queries, 3, &desc, radiance, error),
@@ -236,7 +236,7 @@ static void white_furnace_shows_nothing(void **state)
     // The last one is deep under matter of depth 6, where paths are long.
     static const double scatterings[] = {1.5e-5, 1.5e-5, 1.5e-5, 1.5e-5, 1e-4};
     static const double altitudes[] = {0, 20e3, 20e3, 50e3, 0}, zeniths[] = {50, 90, 140, 93, 30};
-    struct reference_query queries[SUNS];
+    trl_sky_query queries[SUNS];
     double radiance[SUNS], error[SUNS];
     for (int v = 0; v < 5; ++v) {
         const struct medium medium = uniform_medium(scatterings[v], 0, 1);
@@ -297,8 +297,8 @@ static void deep_layer_reflects_as_chandrasekhar_says(void **state)
     struct medium medium = uniform_medium(0.04 * single_albedo, 0.04 * (1 - single_albedo), 0);
     medium.ground_radius_m = 1e9;
     medium.top_radius_m = 1e9 + 1e3;
-    const struct reference_query queries[] = {
-        make_query(1e3, 30, 180, 0), make_query(1e3, 30, 120, 0), make_query(1e3, 75, 110, 180)};
+    const trl_sky_query queries[] = {make_query(1e3, 30, 180, 0), make_query(1e3, 30, 120, 0),
+                                     make_query(1e3, 75, 110, 180)};
     const struct reference_desc desc = {.paths = 4000, .seed = 31};
     double radiance[3], error[3];
     assert_int_equal(reference_sky_radiance(*state, &medium, queries, 3, &desc, radiance, error),
@@ -316,14 +316,14 @@ static void absorbing_air_dims_ground_as_beer_says(void **state)
 {
     const double absorption = 8e-6, albedo = 0.4;
     const struct medium medium = uniform_medium(0, absorption, albedo);
-    const struct reference_query queries[] = {
-        make_query(10e3, 40, 180, 0), make_query(60e3, 40, 130, 70), make_query(0, 40, 120, 0)};
+    const trl_sky_query queries[] = {make_query(10e3, 40, 180, 0), make_query(60e3, 40, 130, 70),
+                                     make_query(0, 40, 120, 0)};
     const struct reference_desc desc = {.paths = 2000, .seed = 41};
     double radiance[3], error[3];
     assert_int_equal(reference_sky_radiance(*state, &medium, queries, 3, &desc, radiance, error),
                      TRL_OK);
     for (int i = 0; i < 3; ++i) {
-        const struct reference_query *q = &queries[i];
+        const trl_sky_query *q = &queries[i];
         const double r = medium.ground_radius_m + q->altitude_m;
         const double mu = cos(q->view_zenith_rad), mu_sun = cos(q->sun_zenith_rad);
         const double nu =
@@ -351,7 +351,7 @@ static double even_point(int i, int axis, double shift)
 static double mean_outgoing(const trl_context *ctx, const struct medium *medium, uint64_t seed)
 {
     enum { COUNT = 1024 };
-    struct reference_query queries[COUNT];
+    trl_sky_query queries[COUNT];
     double radiance[COUNT], error[COUNT], shift[3], sum = 0;
     struct random_stream random = random_stream_for(seed, 0, 0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -400,7 +400,7 @@ static void energy_in_comes_out(void **state)
 static void sun_disc_keeps_irradiance(void **state)
 {
     struct medium medium = earth_like_medium(0.3);
-    const struct reference_query queries[] = {make_query(0, 40, 60, 180), make_query(0, 40, 95, 0)};
+    const trl_sky_query queries[] = {make_query(0, 40, 60, 180), make_query(0, 40, 95, 0)};
     const struct reference_desc desc = {.paths = 10000, .seed = 61};
     double beam[2], beam_error[2], disc[2], disc_error[2];
     assert_int_equal(reference_sky_radiance(*state, &medium, queries, 2, &desc, beam, beam_error),
@@ -419,8 +419,8 @@ static void tabulated_phase_gives_same_sky(void **state)
 {
     enum { KNOTS = 721 };
     struct medium medium = earth_like_medium(0.2);
-    const struct reference_query queries[] = {make_query(0, 40, 60, 20), make_query(0, 80, 85, 120),
-                                              make_query(5e3, 60, 120, 0)};
+    const trl_sky_query queries[] = {make_query(0, 40, 60, 20), make_query(0, 80, 85, 120),
+                                     make_query(5e3, 60, 120, 0)};
     const struct reference_desc desc = {.paths = 10000, .seed = 71};
     double closed[3], closed_error[3], table[3], table_error[3];
     assert_int_equal(
@@ -445,8 +445,7 @@ static void tabulated_phase_gives_same_sky(void **state)
 static void threads_do_not_change_numbers(void **state)
 {
     const struct medium medium = earth_like_medium(0.3);
-    const struct reference_query queries[] = {make_query(0, 40, 60, 20),
-                                              make_query(0, 80, 85, 120)};
+    const trl_sky_query queries[] = {make_query(0, 40, 60, 20), make_query(0, 80, 85, 120)};
     const struct reference_desc desc = {.paths = 5000, .seed = 81};
     const int before = omp_get_max_threads();
     double one[2], one_error[2], many[2], many_error[2];
@@ -469,8 +468,7 @@ static void threads_do_not_change_numbers(void **state)
 static void view_past_planet_is_black(void **state)
 {
     const struct medium medium = earth_like_medium(0.3);
-    const struct reference_query queries[] = {make_query(1e6, 40, 60, 0),
-                                              make_query(1e6, 40, 100, 0)};
+    const trl_sky_query queries[] = {make_query(1e6, 40, 60, 0), make_query(1e6, 40, 100, 0)};
     const struct reference_desc desc = {.paths = 100, .seed = 91};
     double radiance[2], error[2];
     assert_int_equal(reference_sky_radiance(*state, &medium, queries, 2, &desc, radiance, error),
@@ -482,16 +480,16 @@ static void queries_out_of_range_are_refused(void **state)
 {
     const struct medium medium = earth_like_medium(0.3);
     const struct reference_desc desc = {.paths = 100, .seed = 1};
-    const struct reference_query bad[] = {make_query(-1, 0, 0, 0), make_query(0, 181, 0, 0),
-                                          make_query(0, 0, -1, 0), make_query(NAN, 0, 0, 0),
-                                          make_query(0, 0, 0, INFINITY)};
+    const trl_sky_query bad[] = {make_query(-1, 0, 0, 0), make_query(0, 181, 0, 0),
+                                 make_query(0, 0, -1, 0), make_query(NAN, 0, 0, 0),
+                                 make_query(0, 0, 0, INFINITY)};
     double radiance, error;
     for (int i = 0; i < 5; ++i) {
         assert_int_equal(
             reference_sky_radiance(*state, &medium, &bad[i], 1, &desc, &radiance, &error),
             TRL_ERROR_INVALID);
     }
-    const struct reference_query good = make_query(0, 0, 0, 0);
+    const trl_sky_query good = make_query(0, 0, 0, 0);
     const struct reference_desc too_few = {.paths = 1};
     assert_int_equal(reference_sky_radiance(*state, &medium, &good, 1, &too_few, &radiance, &error),
                      TRL_ERROR_INVALID);

@@ -19,7 +19,7 @@ static const char *const header =
 enum { MAX_FILE_BYTES = 1 << 26, COLUMNS = 5 };
 
 struct query_list {
-    struct reference_query *queries;
+    trl_sky_query *queries;
     size_t count;
 };
 
@@ -33,13 +33,13 @@ static double rad(double degrees)
     return degrees * (3.14159265358979323846 / 180);
 }
 
-static struct reference_query make_query(const double *column)
+static trl_sky_query make_query(const double *column)
 {
-    return (struct reference_query){.altitude_m = column[0],
-                                    .sun_zenith_rad = rad(column[1]),
-                                    .view_zenith_rad = rad(column[2]),
-                                    .azimuth_rad = rad(column[3]),
-                                    .wavelength_nm = column[4]};
+    return (trl_sky_query){.altitude_m = column[0],
+                           .sun_zenith_rad = rad(column[1]),
+                           .view_zenith_rad = rad(column[2]),
+                           .azimuth_rad = rad(column[3]),
+                           .wavelength_nm = column[4]};
 }
 
 // Five numbers with commas between them and nothing else.
@@ -58,7 +58,7 @@ static trl_result parse_queries(const trl_context *ctx, char *text, struct query
     for (const char *at = text; *at; ++at) {
         lines += *at == '\n';
     }
-    list->queries = mem_alloc(ctx, lines, sizeof(struct reference_query));
+    list->queries = mem_alloc(ctx, lines, sizeof(trl_sky_query));
     if (!list->queries) {
         return TRL_ERROR_MEMORY;
     }
@@ -107,7 +107,7 @@ static trl_result answer(const trl_context *ctx, const struct medium *medium,
     if (result == TRL_OK) {
         printf("%s,radiance_W_m2_sr_nm,standard_error\n", header);
         for (size_t i = 0; i < list->count; ++i) {
-            const struct reference_query *q = &list->queries[i];
+            const trl_sky_query *q = &list->queries[i];
             printf("%.10g,%.10g,%.10g,%.10g,%.10g,%.6e,%.2e\n", q->altitude_m,
                    q->sun_zenith_rad / rad(1), q->view_zenith_rad / rad(1), q->azimuth_rad / rad(1),
                    q->wavelength_nm, radiance[i], error[i]);

@@ -256,9 +256,9 @@ static void compare(const struct medium *medium, const struct view *views, int c
     struct solved s;
     solve(medium, SOLVER_PRECISE, &s);
     for (int v = 0; v < count; v++) {
-        const struct reference_query query = {views[v].altitude_m, views[v].sun_deg * DEGREE,
-                                              views[v].view_deg * DEGREE,
-                                              views[v].azimuth_deg * DEGREE, WAVELENGTH_NM};
+        const trl_sky_query query = {views[v].altitude_m, views[v].sun_deg * DEGREE,
+                                     views[v].view_deg * DEGREE, views[v].azimuth_deg * DEGREE,
+                                     WAVELENGTH_NM};
         const struct reference_desc desc = {.paths = paths, .seed = 11};
         double expected;
         double error;
