@@ -3,10 +3,9 @@
 // What a pixel shows, as depth, so that each kind is drawn by a program of its own: 0 air in front
 // of space, 1/2 nothing but space, 1 ground. With SURFACE the ground is where the position buffer
 // has some, else where rays meet the reference sphere.
-// validate: PEAKED_COUNT 0
-// validate: PEAKED_COUNT 0; SURFACE
+// validate: SURFACE
 
-#include "sky/air.glsl"
+#include "sky/ray.glsl"
 
 in vec2 v_uv;
 

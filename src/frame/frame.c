@@ -18,9 +18,6 @@ static trl_result make_passes(struct frame *frame, const struct frame_desc *desc
     const struct medium *medium = &frame->scene->medium;
     trl_result result = trl_progress(frame->ctx, "building programs", 0);
     if (result == TRL_OK) {
-        result = sky_init(frame->gpu, frame->atmosphere, &frame->sky);
-    }
-    if (result == TRL_OK) {
         // Without a star only lights at night remain, and those are dimmer than this.
         const double wall_cd_m2 = fmax(daylight_wall_cd_m2(medium), 1);
         result = exposure_init(frame->gpu, wall_cd_m2, &frame->exposure);
@@ -42,9 +39,8 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
         result = ground_init(out->gpu, desc->scene, &out->ground);
     }
     if (result == TRL_OK) {
-        struct atmosphere_desc atmosphere = atmosphere_desc_default();
-        atmosphere.wavelengths = desc->wavelengths;
-        result = atmosphere_create(desc->ctx, &desc->scene->medium, &atmosphere, &out->atmosphere);
+        const struct sky_desc sky = {out->gpu, &desc->scene->medium, desc->wavelengths};
+        result = sky_init(&sky, TRL_SKY_SPECTRAL, &out->sky);
     }
     if (result == TRL_OK) {
         result = make_passes(out, desc);
@@ -75,7 +71,6 @@ void frame_finish(struct frame *frame)
         sky_finish(&frame->sky);
         ground_finish(&frame->ground);
     }
-    atmosphere_destroy(&frame->atmosphere);
     gpu_destroy(&frame->gpu);
     *frame = (struct frame){0};
 }
@@ -151,14 +146,17 @@ struct camera_place frame_place(const struct frame *frame, double latitude_rad,
 static trl_result draw_radiance(struct frame *frame, const struct camera *camera)
 {
     trl_result result = ground_draw(&frame->ground, camera, &frame->clock);
+    const struct sky_view view = {.camera = camera,
+                                  .highest_m = ground_highest_m(&frame->ground),
+                                  .surface = ground_surface(&frame->ground),
+                                  .target = &frame->radiance_target};
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "sky maps");
-        result = sky_prepare(&frame->sky, camera, ground_highest_m(&frame->ground));
+        result = sky_prepare(&frame->sky, &view);
     }
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "sky");
-        const struct sky_surface surface = ground_surface(&frame->ground);
-        result = sky_draw(&frame->sky, camera, &surface, &frame->radiance_target);
+        result = sky_draw(&frame->sky, &view);
     }
     return result;
 }

@@ -18,7 +18,6 @@
 #include "frame/exposure.h"
 #include "frame/ground.h"
 #include "frame/tone.h"
-#include "scatter/atmosphere.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "sky/sky.h"
@@ -35,7 +34,6 @@ struct frame {
     const trl_context *ctx;
     const struct trl_scene *scene;
     struct gpu *gpu;
-    struct atmosphere *atmosphere;
     struct ground ground;
     struct sky sky;
     struct exposure exposure;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // From bands and XYZ to the picture's colours.
-#ifndef SKY_COLOUR_GLSL
-#define SKY_COLOUR_GLSL
+#ifndef SKY_SPECTRAL_COLOUR_GLSL
+#define SKY_SPECTRAL_COLOUR_GLSL
 
 uniform vec4 u_rgb_from_bands[3]; // rows
 uniform vec4 u_rgb_from_xyz[3];   // rows, w unused
@@ -14,4 +14,4 @@ vec4 join_radiance(vec4 bands, vec3 xyz)
                 dot(u_rgb_from_bands[2], bands) + dot(u_rgb_from_xyz[2].xyz, xyz), 1.0);
 }
 
-#endif // SKY_COLOUR_GLSL
+#endif // SKY_SPECTRAL_COLOUR_GLSL

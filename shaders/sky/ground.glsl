@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// The ground that a pixel shows, before any model of the sky lights it. With SURFACE it comes from
+// the surface buffers, else it is the bare reference sphere, whose albedo the model knows.
+#ifndef SKY_GROUND_GLSL
+#define SKY_GROUND_GLSL
+
+#include "sky/ray.glsl"
+
+in vec2 v_uv;
+
+#ifdef SURFACE
+uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
+uniform sampler2D u_albedo;   // square root of linear sRGB
+uniform sampler2D u_normal;   // xyz unit; w how much of the star terrain leaves
+uniform sampler2D u_lights;   // square root of linear sRGB
+#endif
+
+struct Ground {
+    float distance_m;
+    float altitude_m;
+    vec3 normal;
+    float star_visible; // share of the star's disc that terrain leaves
+#ifdef SURFACE
+    vec3 albedo; // linear sRGB
+    vec3 lights; // linear sRGB, of white
+#endif
+};
+
+#ifdef SURFACE
+Ground find_ground(out Ray ray)
+{
+    Ground ground;
+    vec4 position = texelFetch(u_position, ivec2(gl_FragCoord.xy), 0);
+    float distance_m = length(position.xyz);
+    ray = make_ray(position.xyz / max(distance_m, 1.0e-6));
+    vec4 albedo = texelFetch(u_albedo, ivec2(gl_FragCoord.xy), 0);
+    vec4 normal = texelFetch(u_normal, ivec2(gl_FragCoord.xy), 0);
+    vec4 lights = texelFetch(u_lights, ivec2(gl_FragCoord.xy), 0);
+    ground.distance_m = distance_m;
+    ground.altitude_m = position.w;
+    ground.normal = normal.xyz;
+    ground.star_visible = normal.w;
+    ground.albedo = albedo.rgb * albedo.rgb;
+    ground.lights = lights.rgb * lights.rgb;
+    return ground;
+}
+#else
+Ground find_ground(out Ray ray)
+{
+    Ground ground;
+    ray = make_pixel_ray(v_uv);
+    ray.meets_ground = true; // what sort.frag has found counts, in case of rounding
+    ray.end_m = ray.ground_m;
+    ground.distance_m = ray.ground_m;
+    ground.altitude_m = 0.0;
+    ground.normal = normalize(u_eye_up * u_eye.x + ray.direction * ray.ground_m);
+    ground.star_visible = 1.0;
+    return ground;
+}
+#endif
+
+// Mean height of the star's visible part above the level ground, as a cosine: the direct light is
+// already that of this part alone. Half a disc has its centroid at 4 / (3 pi) of its radius;
+// between none, half and all a parabola.
+float visible_height(float sun_mu, float disc_sine)
+{
+    float c = clamp(sun_mu / disc_sine, -1.0, 1.0);
+    return sun_mu > disc_sine ? sun_mu : disc_sine * (c + 1.0) * (0.424 + 0.076 * c);
+}
+
+#endif // SKY_GROUND_GLSL

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Radiance of pixels with ground: lit by star and sky, behind air. With SURFACE the ground comes
+// from the surface buffers, else it is the bare reference sphere.
+// validate: PEAKED_COUNT 1
+// validate: PEAKED_COUNT 0
+// validate: PEAKED_COUNT 3; SURFACE
+
+#include "sky/ground.glsl"
+#include "sky/spectral/air.glsl"
+#include "sky/spectral/colour.glsl"
+
+uniform vec4 u_ground_light; // lowest and highest tabulated altitude, softness, 1 over altitudes
+uniform vec2 u_light_texel;  // 1 over suns in u_sunlight, in u_skylight
+uniform sampler2D u_sunlight;
+uniform sampler2D u_skylight;
+uniform vec4 u_ground_albedo; // in the bands, of the bare sphere and of the land around
+
+#ifdef SURFACE
+uniform vec4 u_bands_from_rgb[3]; // columns
+uniform vec4 u_bands_of_light[3]; // columns: bands that show lights of this colour
+#endif
+
+layout(location = 0) out vec4 out_radiance;
+
+// From colours to bands; the bare sphere's albedo is known in the bands.
+vec4 ground_albedo(Ground ground)
+{
+#ifdef SURFACE
+    return max(u_bands_from_rgb[0] * ground.albedo.r + u_bands_from_rgb[1] * ground.albedo.g +
+                   u_bands_from_rgb[2] * ground.albedo.b,
+               vec4(0.0));
+#else
+    return u_ground_albedo;
+#endif
+}
+
+vec4 ground_emitted(Ground ground)
+{
+#ifdef SURFACE
+    return max(u_bands_of_light[0] * ground.lights.r + u_bands_of_light[1] * ground.lights.g +
+                   u_bands_of_light[2] * ground.lights.b,
+               vec4(0.0));
+#else
+    return vec4(0.0);
+#endif
+}
+
+vec4 light_ground(Ray ray, Ground ground)
+{
+    vec3 up = normalize(u_eye_up * u_eye.x + ray.direction * ground.distance_m);
+    float sun_mu = dot(up, u_sun);
+    float altitude =
+        centre(clamp((ground.altitude_m - u_ground_light.x) / (u_ground_light.y - u_ground_light.x),
+                     0.0, 1.0),
+               u_ground_light.w);
+    float lowest = sky_map_lowest_sun(u_planet.x, ground.altitude_m, u_disc.x, u_disc.y);
+    float sun = sky_map_sunlight(sun_mu, lowest, u_ground_light.z);
+    vec4 star = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
+    float day = sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w);
+    vec4 sky = exp(textureLod(u_skylight, vec2(centre(day, u_light_texel.y), altitude), 0.0));
+    // A slope sees a part of the sky, and for the rest the ground around it.
+    float open = 0.5 + 0.5 * dot(ground.normal, up);
+    float height = visible_height(sun_mu, u_disc.y);
+    float incidence = max(dot(ground.normal, u_sun + up * (height - sun_mu)), 0.0);
+    vec4 around = u_ground_albedo * (star * height + sky);
+    vec4 irradiance = star * (incidence * ground.star_visible) + sky * open + around * (1.0 - open);
+    return ground_albedo(ground) * irradiance * (1.0 / SHARED_PI) + ground_emitted(ground);
+}
+
+void main()
+{
+    Ray ray;
+    Ground ground = find_ground(ray);
+    Air air = air_before(ray, ground.distance_m);
+    out_radiance = join_radiance(light_ground(ray, ground) * air.transmittance, air.scattered);
+}

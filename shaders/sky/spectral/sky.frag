@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Radiance of pixels without ground: the air in front of space, with STAR also the star's disc.
+// validate: PEAKED_COUNT 1
+// validate: PEAKED_COUNT 0; STAR
+// validate: PEAKED_COUNT 3; STAR
+
+#include "sky/disc.glsl"
+#include "sky/spectral/air.glsl"
+#include "sky/spectral/colour.glsl"
+
+in vec2 v_uv;
+
+layout(location = 0) out vec4 out_radiance;
+
+void main()
+{
+    Ray ray = make_pixel_ray(v_uv);
+    ray.meets_ground = false; // what sort.frag has found counts, in case of rounding
+    ray.end_m = max(ray.begin_m, ray.chord_m - u_eye.x * ray.mu);
+    vec4 bands = vec4(0.0);
+#ifdef STAR
+    bands = star_disc(ray) * air_before(ray, ray.end_m).transmittance;
+#endif
+    out_radiance = join_radiance(bands, sky_light(ray));
+}

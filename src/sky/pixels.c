@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "sky/pixels.h"
+
+#include <math.h>
+
+trl_result sky_pixels_init(const struct sky_desc *desc, double disc_rad, struct sky_pixels *out)
+{
+    *out = (struct sky_pixels){.gpu = desc->gpu,
+                               .ground_radius_m = desc->medium->ground_radius_m,
+                               .top_radius_m = desc->medium->top_radius_m,
+                               .disc_rad = disc_rad};
+    const char *const surface[] = {"SURFACE"};
+    struct gpu_program_desc program = {.vertex = "sky/layer.vert", .fragment = "sky/sort.frag"};
+    trl_result result = gpu_program_init(desc->gpu, &program, &out->sort_bare);
+    if (result == TRL_OK) {
+        program.defines = surface;
+        program.define_count = 1;
+        result = gpu_program_init(desc->gpu, &program, &out->sort_surface);
+    }
+    if (result != TRL_OK) {
+        sky_pixels_finish(out);
+    }
+    return result;
+}
+
+void sky_pixels_finish(struct sky_pixels *pixels)
+{
+    gpu_program_finish(&pixels->sort_bare);
+    gpu_program_finish(&pixels->sort_surface);
+    *pixels = (struct sky_pixels){0};
+}
+
+bool sky_view_is_bare(const struct sky_view *view)
+{
+    return !view->surface.position;
+}
+
+double sky_pixels_eye_radius(const struct sky_pixels *pixels, const struct camera *camera)
+{
+    return fmax(vec3_length(camera->position_m), pixels->ground_radius_m + SKY_MIN_ALTITUDE_M);
+}
+
+void sky_set_vec3(struct gpu_program *program, const char *name, struct vec3 v)
+{
+    const float values[3] = {(float)v.x, (float)v.y, (float)v.z};
+    gpu_program_set_vec3(program, name, values);
+}
+
+void sky_set_vec4(struct gpu_program *program, const char *name, double x, double y, double z,
+                  double w)
+{
+    const float values[4] = {(float)x, (float)y, (float)z, (float)w};
+    gpu_program_set_vec4(program, name, values);
+}
+
+// The uniforms of ray.glsl.
+static void set_view(const struct sky_pixels *pixels, struct gpu_program *program,
+                     const struct sky_view *view)
+{
+    const struct camera *camera = view->camera;
+    const double ground = pixels->ground_radius_m;
+    const double top = pixels->top_radius_m;
+    const double radius_m = sky_pixels_eye_radius(pixels, camera);
+    const struct vec3 up = vec3_normalize(camera->position_m);
+    sky_set_vec3(program, "u_eye_up", up);
+    sky_set_vec3(program, "u_sun", camera->sun_direction);
+    sky_set_vec3(program, "u_forward", camera->forward);
+    sky_set_vec3(program, "u_right", vec3_scale(camera->right, camera->tan_half_fov_x));
+    sky_set_vec3(program, "u_up", vec3_scale(camera->up, camera->tan_half_fov_y));
+    sky_set_vec4(program, "u_eye", radius_m, radius_m - ground, vec3_dot(up, camera->sun_direction),
+                 radius_m > top);
+    sky_set_vec4(program, "u_planet", ground, top - ground, sqrt((top - ground) * (top + ground)),
+                 0);
+    sky_set_vec3(program, "u_disc",
+                 (struct vec3){cos(pixels->disc_rad), sin(pixels->disc_rad),
+                               2 * camera->tan_half_fov_y / view->target->height});
+}
+
+static void set_surface(struct gpu_program *program, const struct sky_surface *surface)
+{
+    gpu_program_set_texture(program, "u_position", surface->position);
+    gpu_program_set_texture(program, "u_albedo", surface->albedo);
+    gpu_program_set_texture(program, "u_normal", surface->normal);
+    gpu_program_set_texture(program, "u_lights", surface->lights);
+}
+
+// Pixels in which the star's disc may show. From far off the axis the disc looks longer: outward it
+// reaches from the tangent of the angle to that of the angle and the disc's.
+static struct gpu_rect find_star(const struct sky_pixels *pixels, const struct camera *camera,
+                                 const struct gpu_target *target)
+{
+    const double pixel_rad = 2 * camera->tan_half_fov_y / target->height;
+    const double disc_rad = pixels->disc_rad + pixel_rad;
+    const double along = vec3_dot(camera->sun_direction, camera->forward);
+    const double off_rad = acos(fmax(-1, fmin(1, along)));
+    if (off_rad - disc_rad > M_PI / 2) {
+        return (struct gpu_rect){0};
+    }
+    if (off_rad + disc_rad > 0.49 * M_PI) {
+        return (struct gpu_rect){0, 0, target->width, target->height};
+    }
+    const double reach = tan(off_rad + disc_rad) - tan(off_rad);
+    const double x = vec3_dot(camera->sun_direction, camera->right) / along;
+    const double y = vec3_dot(camera->sun_direction, camera->up) / along;
+    const double half_width = 0.5 * target->width / camera->tan_half_fov_x; // pixels
+    const double half_height = 0.5 * target->height / camera->tan_half_fov_y;
+    const double left = fmax(0, 0.5 * target->width + (x - reach) * half_width - 1);
+    const double right = fmin(target->width, 0.5 * target->width + (x + reach) * half_width + 1);
+    const double low = fmax(0, 0.5 * target->height + (y - reach) * half_height - 1);
+    const double high = fmin(target->height, 0.5 * target->height + (y + reach) * half_height + 1);
+    if (left >= right || low >= high) {
+        return (struct gpu_rect){0};
+    }
+    return (struct gpu_rect){(uint32_t)left, (uint32_t)low, (uint32_t)ceil(right) - (uint32_t)left,
+                             (uint32_t)ceil(high) - (uint32_t)low};
+}
+
+trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct sky_view *view)
+{
+    const bool is_bare = sky_view_is_bare(view);
+    struct gpu_program *program = is_bare ? &pixels->sort_bare : &pixels->sort_surface;
+    const struct gpu_pass pass = {.target = view->target,
+                                  .state = {.writes_depth = true, .hides_color = true},
+                                  .clears_color = true,
+                                  .color = {0, 0, 0, 1}};
+    set_view(pixels, program, view);
+    if (!is_bare) {
+        gpu_program_set_texture(program, "u_position", view->surface.position);
+    }
+    gpu_program_set_float(program, "u_depth", 0.5f);
+    gpu_pass_begin(pixels->gpu, &pass);
+    return gpu_draw_fullscreen(program, "sky");
+}
+
+trl_result sky_pixels_draw(const struct sky_pixels *pixels, struct gpu_program *program,
+                           enum sky_kind kind, const struct sky_view *view)
+{
+    struct gpu_pass pass = {.target = view->target, .state.depth = GPU_DEPTH_NEARER};
+    if (kind == SKY_KIND_STAR) {
+        pass.scissor = find_star(pixels, view->camera, view->target);
+        if (pass.scissor.width == 0) {
+            return TRL_OK;
+        }
+    }
+    set_view(pixels, program, view);
+    if (kind == SKY_KIND_GROUND) {
+        pass.state.depth = GPU_DEPTH_FARTHER;
+        if (!sky_view_is_bare(view)) {
+            set_surface(program, &view->surface);
+        }
+    }
+    // Between the depths of sort.frag: air is at 0, space at 1/2, ground at 1.
+    gpu_program_set_float(program, "u_depth", kind == SKY_KIND_AIR ? 0.25f : 0.75f);
+    gpu_pass_begin(pixels->gpu, &pass);
+    return gpu_draw_fullscreen(program, "sky");
+}

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SKY_PIXELS_H
+#define SKY_PIXELS_H
+// What models of the sky share. Pixels are first sorted into ground, air and space, and each kind
+// is drawn by a program of its own with a depth test: a software rasteriser runs both sides of a
+// branch. Programs have the vertex shader sky/layer.vert, include sky/ray.glsl, and for the ground
+// sky/ground.glsl (with SURFACE where there are surface buffers).
+
+#include "sky/sky.h"
+
+enum sky_kind {
+    SKY_KIND_AIR,   // no ground: air before space
+    SKY_KIND_STAR,  // the same where the star's disc may be, and space: drawn over the air
+    SKY_KIND_GROUND // lit ground behind air
+};
+
+struct sky_pixels {
+    struct gpu *gpu;
+    double ground_radius_m, top_radius_m;
+    double disc_rad; // angular radius of the star
+    struct gpu_program sort_bare, sort_surface;
+};
+
+TRL_MUST_USE trl_result sky_pixels_init(const struct sky_desc *desc, double disc_rad,
+                                        struct sky_pixels *out);
+void sky_pixels_finish(struct sky_pixels *pixels);
+
+// Whether the view has no surface buffers.
+bool sky_view_is_bare(const struct sky_view *view);
+
+// The eye's distance from the centre, never below the reference sphere.
+double sky_pixels_eye_radius(const struct sky_pixels *pixels, const struct camera *camera);
+
+// First of all: clears the target and marks each pixel's kind.
+TRL_MUST_USE trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct sky_view *view);
+
+// Draws the pixels of one kind. Uniforms of ray.glsl and textures of ground.glsl are set here; the
+// caller has set the others.
+TRL_MUST_USE trl_result sky_pixels_draw(const struct sky_pixels *pixels,
+                                        struct gpu_program *program, enum sky_kind kind,
+                                        const struct sky_view *view);
+
+void sky_set_vec3(struct gpu_program *program, const char *name, struct vec3 v);
+void sky_set_vec4(struct gpu_program *program, const char *name, double x, double y, double z,
+                  double w);
+
+#endif // SKY_PIXELS_H
