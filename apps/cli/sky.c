@@ -34,14 +34,14 @@ struct sky_arguments {
     const char *scene;
     struct number_list lists[PART_COUNT];
     const char *queries; // NULL: the lists
-    int solver;          // index in solver_words
+    int solver;          // a trl_sky_model
     struct option_number orders, paths, seed;
     const char *output; // NULL: standard output
     bool is_quiet;
 };
 
-static const char *const solver_words[] = {"spectral", "reference", NULL};
-static const trl_sky_model solver_models[] = {TRL_SKY_SPECTRAL, TRL_SKY_REFERENCE};
+// In the order of trl_sky_model.
+static const char *const solver_words[] = {"spectral", "single", "rayleigh", "reference", NULL};
 
 // The queries, and each number as it was given.
 struct questions {
@@ -100,8 +100,9 @@ static enum options_outcome read_arguments(int argc, char **argv, struct sky_arg
          .target.choice = &out->solver,
          .choices = solver_words,
          .metavar = "NAME",
-         .help = "spectral (all orders of scattering, deterministic; the default) or reference (a "
-                 "Monte Carlo path tracer to judge the others by: slow)."},
+         .help = "spectral (all orders of scattering, the default), single or rayleigh (the models "
+                 "of render --sky-model: one scattering), or reference (a Monte Carlo path tracer "
+                 "to judge the others by: slow)."},
         {.name = "orders",
          .kind = OPTION_NUMBER,
          .target.number = &out->orders,
@@ -284,7 +285,7 @@ static void print_answers(FILE *stream, const struct questions *questions,
 static trl_sky_desc make_desc(const struct sky_arguments *arguments)
 {
     trl_sky_desc desc = trl_sky_desc_default();
-    desc.model = solver_models[arguments->solver];
+    desc.model = (trl_sky_model)arguments->solver;
     if (arguments->orders.is_given && !arguments->orders.is_word) {
         desc.max_orders = (uint32_t)arguments->orders.value;
     }
@@ -314,7 +315,7 @@ static enum exit_status solve(struct app *app, const struct sky_arguments *argum
 static enum exit_status allocate_answers(const struct sky_arguments *arguments, size_t count,
                                          struct answers *out)
 {
-    const bool has_error = solver_models[arguments->solver] == TRL_SKY_REFERENCE;
+    const bool has_error = arguments->solver == TRL_SKY_REFERENCE;
     out->radiance = calloc(count + 1, sizeof *out->radiance);
     out->standard_error = has_error ? calloc(count + 1, sizeof *out->standard_error) : NULL;
     return out->radiance && (out->standard_error || !has_error)
@@ -366,7 +367,7 @@ static enum exit_status run(struct app *app, const struct sky_arguments *argumen
 
 static enum exit_status check_arguments(const struct sky_arguments *arguments)
 {
-    const bool is_traced = solver_models[arguments->solver] == TRL_SKY_REFERENCE;
+    const bool is_traced = arguments->solver == TRL_SKY_REFERENCE;
     if (!is_traced && (arguments->paths.is_given || arguments->seed.is_given)) {
         return report_error(EXIT_USAGE, "sky: --paths and --seed belong to --solver reference");
     }

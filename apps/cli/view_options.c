@@ -11,6 +11,9 @@ static const double rad_per_deg = 3.14159265358979323846 / 180.0;
 static const char *const tone_words[] = {"filmic", "exponential", NULL};
 static const trl_tone_curve tone_curves[] = {TRL_TONE_FILMIC, TRL_TONE_EXPONENTIAL};
 
+// In the order of trl_sky_model.
+static const char *const sky_words[] = {"spectral", "single", "rayleigh", NULL};
+
 static const struct number_range latitudes_deg = {-90.0, 90.0};
 static const struct number_range turns_deg = {-360.0, 360.0};
 // As far out as scene files allow a camera, and a little below the sphere, where sea floors are.
@@ -21,7 +24,7 @@ static const struct number_range stops = {-40.0, 40.0};
 
 struct view_choice view_choice_default(void)
 {
-    return (struct view_choice){.tone = -1};
+    return (struct view_choice){.tone = -1, .sky_model = TRL_SKY_MODEL_OF_SCENE};
 }
 
 static struct option make_number(const char *name, struct option_number *target,
@@ -115,10 +118,22 @@ enum options_outcome view_command_read(const struct view_command *command, int a
     make_camera(command->choice, camera);
     make_sun(command->choice, sun);
     make_exposure(command->choice, exposure);
+    const struct option sky[] = {
+        {.name = "sky-model",
+         .kind = OPTION_CHOICE,
+         .target.choice = &command->choice->sky_model,
+         .choices = sky_words,
+         .metavar = "NAME",
+         .help = "How the light of the air is found: spectral (all orders of scattering, Elek "
+                 "2010 and beyond), single (one scattering, a 3D table, Schafhitzel 2007) or "
+                 "rayleigh (a few samples per pixel, Santana 2017). Default: what the scene asks "
+                 "for, else spectral."},
+    };
     const struct option_section sections[] = {command->own,
                                               {"Camera", camera, CAMERA_OPTIONS},
                                               {"Sun", sun, SUN_OPTIONS},
-                                              {"Exposure", exposure, EXPOSURE_OPTIONS}};
+                                              {"Exposure", exposure, EXPOSURE_OPTIONS},
+                                              {"Sky", sky, sizeof sky / sizeof *sky}};
     const struct option_spec spec = {.command = command->name,
                                      .positional = "SCENE",
                                      .min_positionals = 1,

@@ -6,7 +6,7 @@
 // what replaces parts of it. Shared by the commands that draw.
 
 #include "options.h"
-#include <terrella/scene.h>
+#include <terrella/renderer.h>
 
 // What was given; start from view_choice_default().
 struct view_choice {
@@ -16,7 +16,8 @@ struct view_choice {
     struct option_number sun_elevation_deg, sun_azimuth_deg;
     struct option_number subsolar_latitude_deg, subsolar_longitude_deg;
     struct option_number ev100, bias_ev;
-    int tone; // index of the word; -1: as in the view
+    int tone;      // index of the word; -1: as in the view
+    int sky_model; // a trl_sky_model; TRL_SKY_MODEL_OF_SCENE when it was not given
 };
 
 struct view_choice view_choice_default(void);

@@ -23,6 +23,7 @@ enum { VIEWER_MESSAGE_MAX = 256 };
 struct viewer_desc {
     trl_context *ctx;
     const trl_scene *scene;
+    int sky_model;          // as in trl_renderer_desc
     trl_view view;          // where it begins
     uint32_t width, height; // of the window
     uint64_t frame_limit;   // quit after so many frames; 0: never

@@ -201,6 +201,7 @@ static void fly_scene(struct viewer *viewer)
     trl_renderer_desc desc = trl_renderer_desc_default();
     desc.scene = viewer->desc->scene;
     desc.gl = TRL_GL_CURRENT;
+    desc.sky_model = viewer->desc->sky_model;
     viewer->result = trl_renderer_create(viewer->desc->ctx, &desc, &viewer->renderer);
     if (viewer->result != TRL_OK || !controls_resolve(viewer, &viewer->desc->view, &viewer->view)) {
         return;

@@ -17,13 +17,6 @@ typedef struct trl_sky_query {
     double wavelength_nm;   ///< > 0
 } trl_sky_query;
 
-/// How the light of the sky is found.
-typedef enum trl_sky_model {
-    TRL_SKY_SPECTRAL, ///< all orders, wavelength by wavelength (Elek 2010 and beyond): the default
-    TRL_SKY_REFERENCE ///< a Monte Carlo path tracer that shares no transport code with the others:
-                      ///< slow, unbiased, with a standard error
-} trl_sky_model;
-
 typedef struct trl_sky_desc {
     uint32_t canary;     ///< set by trl_sky_desc_default(); never touch
     trl_sky_model model; ///< default TRL_SKY_SPECTRAL

@@ -40,11 +40,15 @@ enum {
     TRL_RENDERER_MAX_WAVELENGTHS = 16  ///< of trl_renderer_desc.wavelengths
 };
 
+/// trl_renderer_desc.sky_model: what the scene asks for.
+#define TRL_SKY_MODEL_OF_SCENE (-1)
+
 typedef struct trl_renderer_desc {
     uint32_t canary;        ///< set by trl_renderer_desc_default(); never touch
     const trl_scene *scene; ///< must outlive the renderer
     trl_gl gl;              ///< default TRL_GL_HEADLESS
     uint32_t wavelengths;   ///< to solve for, [1, TRL_RENDERER_MAX_WAVELENGTHS]; default 16
+    int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
     bool measures_time;     ///< each draw waits for the GPU and fills trl_renderer_timings; default
                             ///< false
 } trl_renderer_desc;
@@ -121,6 +125,16 @@ TRL_API double trl_renderer_ground_altitude_m(const trl_renderer *renderer, doub
 /// @return TRL_OK; TRL_ERROR_INVALID (a field is out of range, named in the log)
 TRL_API TRL_MUST_USE trl_result trl_renderer_resolve(const trl_renderer *renderer,
                                                      const trl_view *view, trl_view *out);
+
+/// Draws with another model of the sky from the next frame on. The first time for each model makes
+/// its tables and compiles its programs: blocks as trl_renderer_create. What was made is kept.
+/// @return TRL_OK; TRL_ERROR_INVALID (none that pictures are made by); else as trl_renderer_create,
+///         and the old model stays
+TRL_API TRL_MUST_USE trl_result trl_renderer_set_sky_model(trl_renderer *renderer,
+                                                           trl_sky_model model);
+
+/// The model that frames are drawn with.
+TRL_API trl_sky_model trl_renderer_sky_model(const trl_renderer *renderer);
 
 /// How long one pass of the last frame took.
 typedef struct trl_timing {

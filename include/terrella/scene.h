@@ -23,6 +23,21 @@ typedef enum trl_tone_curve {
     TRL_TONE_EXPONENTIAL ///< 1 - exp(-E I), Elek 2010 Section 5
 } trl_tone_curve;
 
+/// How the light of the sky is found.
+typedef enum trl_sky_model {
+    TRL_SKY_SPECTRAL, ///< "spectral": all orders, wavelength by wavelength (Elek 2010 and beyond)
+    TRL_SKY_SINGLE,   ///< "single": single scattering from one 3D table (Schafhitzel 2007)
+    TRL_SKY_RAYLEIGH, ///< "rayleigh": single scattering by few samples per pixel (Santana 2017)
+    TRL_SKY_REFERENCE ///< "reference": a Monte Carlo path tracer that shares no transport code with
+                      ///< the others: slow, unbiased, with a standard error; numbers only
+} trl_sky_model;
+
+/// The word for a model in scenes and on the command line; NULL for what is none. Threads: any.
+TRL_API const char *trl_sky_model_name(trl_sky_model model);
+
+/// The model of that word. False when there is none, and *out is not touched. Threads: any.
+TRL_API bool trl_sky_model_find(const char *name, trl_sky_model *out);
+
 /// A camera, the star and the exposure.
 typedef struct trl_view {
     double latitude_rad;  ///< planetocentric, [-pi/2, pi/2]
@@ -69,6 +84,9 @@ TRL_API const char *trl_scene_name(const trl_scene *scene);
 /// Radius of the reference sphere, and of the top of the atmosphere, in metres.
 TRL_API double trl_scene_ground_radius_m(const trl_scene *scene);
 TRL_API double trl_scene_top_radius_m(const trl_scene *scene);
+
+/// The model of the sky that the scene asks for; TRL_SKY_SPECTRAL when it does not say.
+TRL_API trl_sky_model trl_scene_sky_model(const trl_scene *scene);
 
 /// Named views. Index below the count, else NULL.
 TRL_API size_t trl_scene_view_count(const trl_scene *scene);

@@ -15,7 +15,10 @@ struct trl_renderer {
 
 trl_renderer_desc trl_renderer_desc_default(void)
 {
-    return (trl_renderer_desc){.canary = RENDERER_CANARY, .gl = TRL_GL_HEADLESS, .wavelengths = 16};
+    return (trl_renderer_desc){.canary = RENDERER_CANARY,
+                               .gl = TRL_GL_HEADLESS,
+                               .wavelengths = 16,
+                               .sky_model = TRL_SKY_MODEL_OF_SCENE};
 }
 
 static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, trl_renderer **out)
@@ -29,6 +32,9 @@ static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, 
                                      .scene = desc->scene,
                                      .gl = desc->gl,
                                      .wavelengths = desc->wavelengths,
+                                     .sky_model = desc->sky_model == TRL_SKY_MODEL_OF_SCENE
+                                                      ? desc->scene->sky_model
+                                                      : (trl_sky_model)desc->sky_model,
                                      .measures_time = desc->measures_time};
     const trl_result result = frame_init(&frame, &renderer->frame);
     if (result != TRL_OK) {
@@ -155,6 +161,20 @@ trl_result trl_renderer_exposure(trl_renderer *renderer, double *ev100)
         result = gpu_make_current(renderer->frame.gpu);
     }
     return result == TRL_OK ? exposure_read(&renderer->frame.exposure, ev100) : result;
+}
+
+trl_result trl_renderer_set_sky_model(trl_renderer *renderer, trl_sky_model model)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    const trl_result result = gpu_make_current(renderer->frame.gpu);
+    return result == TRL_OK ? frame_set_sky_model(&renderer->frame, model) : result;
+}
+
+trl_sky_model trl_renderer_sky_model(const trl_renderer *renderer)
+{
+    return renderer ? renderer->frame.sky_model : TRL_SKY_SPECTRAL;
 }
 
 double trl_renderer_ground_altitude_m(const trl_renderer *renderer, double latitude_rad,

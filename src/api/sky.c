@@ -148,6 +148,9 @@ static trl_result answer(const trl_context *ctx, const struct medium *medium,
     switch (desc->model) {
     case TRL_SKY_SPECTRAL:
         return solve_and_answer(ctx, medium, desc, queries, count, radiance);
+    case TRL_SKY_SINGLE:
+    case TRL_SKY_RAYLEIGH:
+        break;
     case TRL_SKY_REFERENCE:
         return trace(ctx, medium, desc, queries, count, radiance, standard_error);
     }

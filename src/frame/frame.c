@@ -31,16 +31,29 @@ static trl_result make_passes(struct frame *frame, const struct frame_desc *desc
     return result == TRL_OK ? trl_progress(frame->ctx, "building programs", 1) : result;
 }
 
+trl_result frame_set_sky_model(struct frame *frame, trl_sky_model model)
+{
+    if ((unsigned)model >= SKY_MODELS) {
+        return trl_fail(frame->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                        "pictures are not made by the sky model \"%s\"",
+                        model == TRL_SKY_REFERENCE ? "reference" : "?");
+    }
+    const struct sky_desc desc = {frame->gpu, &frame->scene->medium, frame->wavelengths};
+    struct sky *sky = &frame->skies[model];
+    const trl_result result = sky->self ? TRL_OK : sky_init(&desc, model, sky);
+    frame->sky_model = result == TRL_OK ? model : frame->sky_model;
+    return result;
+}
+
 trl_result frame_init(const struct frame_desc *desc, struct frame *out)
 {
-    *out = (struct frame){.ctx = desc->ctx, .scene = desc->scene};
+    *out = (struct frame){.ctx = desc->ctx, .scene = desc->scene, .wavelengths = desc->wavelengths};
     trl_result result = open_gpu(desc, &out->gpu);
     if (result == TRL_OK) {
         result = ground_init(out->gpu, desc->scene, &out->ground);
     }
     if (result == TRL_OK) {
-        const struct sky_desc sky = {out->gpu, &desc->scene->medium, desc->wavelengths};
-        result = sky_init(&sky, TRL_SKY_SPECTRAL, &out->sky);
+        result = frame_set_sky_model(out, desc->sky_model);
     }
     if (result == TRL_OK) {
         result = make_passes(out, desc);
@@ -68,7 +81,9 @@ void frame_finish(struct frame *frame)
         frame_clock_finish(&frame->clock);
         tone_finish(&frame->tone);
         exposure_finish(&frame->exposure);
-        sky_finish(&frame->sky);
+        for (int m = 0; m < SKY_MODELS; m++) {
+            sky_finish(&frame->skies[m]);
+        }
         ground_finish(&frame->ground);
     }
     gpu_destroy(&frame->gpu);
@@ -150,13 +165,14 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
                                   .highest_m = ground_highest_m(&frame->ground),
                                   .surface = ground_surface(&frame->ground),
                                   .target = &frame->radiance_target};
+    struct sky *sky = &frame->skies[frame->sky_model];
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "sky maps");
-        result = sky_prepare(&frame->sky, &view);
+        result = sky_prepare(sky, &view);
     }
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "sky");
-        result = sky_draw(&frame->sky, &view);
+        result = sky_draw(sky, &view);
     }
     return result;
 }

@@ -27,6 +27,7 @@ struct frame_desc {
     const struct trl_scene *scene; // must outlive the frame
     trl_gl gl;
     uint32_t wavelengths;
+    trl_sky_model sky_model;
     bool measures_time;
 };
 
@@ -35,7 +36,9 @@ struct frame {
     const struct trl_scene *scene;
     struct gpu *gpu;
     struct ground ground;
-    struct sky sky;
+    struct sky skies[SKY_MODELS]; // by trl_sky_model; made when first asked for
+    trl_sky_model sky_model;      // that frames are drawn with
+    uint32_t wavelengths;
     struct exposure exposure;
     struct tone tone;
     struct frame_clock clock;
@@ -48,6 +51,10 @@ struct frame {
 // failure.
 TRL_MUST_USE trl_result frame_init(const struct frame_desc *desc, struct frame *out);
 void frame_finish(struct frame *frame);
+
+// Draws with that model from now on; makes it when it is asked for first. A failure leaves the old
+// one.
+TRL_MUST_USE trl_result frame_set_sky_model(struct frame *frame, trl_sky_model model);
 
 struct frame_request {
     const trl_view *view; // every number checked

@@ -16,6 +16,9 @@ TRL_MUST_USE trl_result scene_read_spectrum(const struct scene_node *node,
 TRL_MUST_USE trl_result scene_read_profile(const struct scene_node *node, struct profile *out);
 TRL_MUST_USE trl_result scene_read_phase(const struct scene_node *node, struct phase *out);
 
+// sky_model of the root; it may be missing.
+TRL_MUST_USE trl_result scene_read_sky_model(const struct scene_node *root, struct trl_scene *out);
+
 // surface.layers and views of the root; both may be missing.
 TRL_MUST_USE trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *out);
 TRL_MUST_USE trl_result scene_read_views(const struct scene_node *root, struct trl_scene *out);

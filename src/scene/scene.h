@@ -41,6 +41,7 @@ struct trl_scene {
     const trl_context *ctx;
     char *name;
     struct medium medium;
+    trl_sky_model sky_model;
     size_t layer_count;
     struct layer layers[SCENE_MAX_LAYERS];
     struct scene_detail detail;

@@ -7,6 +7,8 @@ static const struct sky_model *find_model(trl_sky_model model)
     switch (model) {
     case TRL_SKY_SPECTRAL:
         return &sky_spectral;
+    case TRL_SKY_SINGLE:
+    case TRL_SKY_RAYLEIGH:
     case TRL_SKY_REFERENCE:
         return NULL; // paths are traced without OpenGL
     }
@@ -18,7 +20,7 @@ trl_result sky_init(const struct sky_desc *desc, trl_sky_model model, struct sky
     *out = (struct sky){.model = find_model(model)};
     if (!out->model) {
         return trl_fail(desc->gpu->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
-                        "the renderer has no sky model %d", (int)model);
+                        "pictures are not made by sky model %d", (int)model);
     }
     return out->model->create(desc, &out->self);
 }

@@ -51,6 +51,8 @@ struct sky_model {
 
 extern const struct sky_model sky_spectral; // spectral.c
 
+enum { SKY_MODELS = TRL_SKY_RAYLEIGH + 1 }; // that make pictures
+
 // Any of the models.
 struct sky {
     const struct sky_model *model;

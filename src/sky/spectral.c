@@ -22,8 +22,6 @@
 
 enum { PHASE_SAMPLES = 1024 };
 
-_Static_assert(SKY_MIN_ALTITUDE_M == AERIAL_MIN_ALTITUDE_M, "sky and tables see one eye");
-
 struct spectral {
     const trl_context *ctx;
     struct gpu *gpu;
