@@ -136,6 +136,30 @@ TRL_API TRL_MUST_USE trl_result trl_renderer_set_sky_model(trl_renderer *rendere
 /// The model that frames are drawn with.
 TRL_API trl_sky_model trl_renderer_sky_model(const trl_renderer *renderer);
 
+/// What becomes of one constituent of a scene's atmosphere.
+typedef struct trl_constituent_change {
+    size_t constituent; ///< index in the scene
+    double amount;      ///< factor on its scattering and absorption, [0, 1e6]
+    double asymmetry;   ///< g of its phase function, (-0.9999, 0.9999); NAN: as in the scene
+} trl_constituent_change;
+
+/// Goes over to the atmosphere of `scene` (its constituents and height; star, ground, surface and
+/// radius stay those of the renderer's scene), with `count` changes. Does not wait: solving goes on
+/// on threads of its own while draws show what there is. Another asymmetry shows at the next draw,
+/// approximately; a draft of all follows, then the fine picture. A further call drops what is not
+/// finished. Models without multiple scattering change at once.
+/// @param scene    needs to live only until the call returns
+/// @param changes  may be NULL when count is 0
+/// @return TRL_OK; TRL_ERROR_INVALID (an index or a number out of range; an asymmetry for a phase
+///         function without one); TRL_ERROR_MEMORY; TRL_ERROR_GPU
+TRL_API TRL_MUST_USE trl_result
+trl_renderer_change_atmosphere(trl_renderer *renderer, const trl_scene *scene,
+                               const trl_constituent_change *changes, size_t count);
+
+/// Whether draws show the atmosphere last changed to, as fine as it gets. While it is false,
+/// drawing again can give a better picture.
+TRL_API bool trl_renderer_is_settled(const trl_renderer *renderer);
+
 /// How long one pass of the last frame took.
 typedef struct trl_timing {
     const char *name; ///< "surface", "sky", …; lives as long as the library

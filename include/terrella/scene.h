@@ -88,6 +88,14 @@ TRL_API double trl_scene_top_radius_m(const trl_scene *scene);
 /// The model of the sky that the scene asks for; TRL_SKY_SPECTRAL when it does not say.
 TRL_API trl_sky_model trl_scene_sky_model(const trl_scene *scene);
 
+/// Constituents of the atmosphere. Index below the count, else NULL; names are the scene's.
+TRL_API size_t trl_scene_constituent_count(const trl_scene *scene);
+TRL_API const char *trl_scene_constituent_name(const trl_scene *scene, size_t index);
+
+/// The asymmetry g of a constituent's phase function (Henyey-Greenstein or Cornette-Shanks); NAN
+/// for one that has none, and for an index beyond the count.
+TRL_API double trl_scene_constituent_asymmetry(const trl_scene *scene, size_t index);
+
 /// Named views. Index below the count, else NULL.
 TRL_API size_t trl_scene_view_count(const trl_scene *scene);
 TRL_API const char *trl_scene_view_name(const trl_scene *scene, size_t index);

@@ -35,7 +35,8 @@ trl_result trl_atmosphere_create(trl_context *ctx, const trl_scene *scene,
     if (!made) {
         return TRL_ERROR_MEMORY;
     }
-    const struct atmosphere_desc inner = {desc->wavelengths, desc->uses_cache};
+    const struct atmosphere_desc inner = {.wavelengths = desc->wavelengths,
+                                          .uses_cache = desc->uses_cache};
     const trl_result result = atmosphere_create(ctx, &scene->medium, &inner, &made->atmosphere);
     if (result != TRL_OK) {
         mem_free(ctx, made);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "api/check.h"
 #include "frame/frame.h"
+#include "scatter/medium_edit.h"
 #include <terrella/renderer.h>
 
 #include <math.h>
@@ -175,6 +176,70 @@ trl_result trl_renderer_set_sky_model(trl_renderer *renderer, trl_sky_model mode
 trl_sky_model trl_renderer_sky_model(const trl_renderer *renderer)
 {
     return renderer ? renderer->frame.sky_model : TRL_SKY_SPECTRAL;
+}
+
+static trl_result change_constituent(const trl_context *ctx, struct medium *medium,
+                                     const trl_constituent_change *change)
+{
+    TRL_REQUIRE(ctx, change->constituent < medium->constituent_count);
+    TRL_REQUIRE(ctx, change->amount >= 0 && change->amount <= 1e6);
+    struct constituent *constituent = &medium->constituents[change->constituent];
+    constituent_scale(constituent, change->amount);
+    if (!isnan(change->asymmetry)) {
+        TRL_REQUIRE(ctx, fabs(change->asymmetry) < 0.9999);
+        if (!constituent_set_asymmetry(constituent, change->asymmetry)) {
+            return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                            "the phase function of %s has no asymmetry to change",
+                            constituent->name);
+        }
+    }
+    return TRL_OK;
+}
+
+// Coefficients are bounded where eyes see, as a scene's are when it is read.
+static trl_result check_changed(const trl_context *ctx, const struct medium *medium)
+{
+    trl_result result = TRL_OK;
+    for (double nm = 360; nm <= 830 && result == TRL_OK; nm += 10) {
+        result = medium_check(ctx, medium, nm);
+    }
+    return result;
+}
+
+trl_result trl_renderer_change_atmosphere(trl_renderer *renderer, const trl_scene *scene,
+                                          const trl_constituent_change *changes, size_t count)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    const trl_context *ctx = renderer->ctx;
+    struct frame *frame = &renderer->frame;
+    TRL_REQUIRE(ctx, scene != NULL);
+    TRL_REQUIRE(ctx, changes != NULL || count == 0);
+    struct medium medium;
+    trl_result result = medium_copy_atmosphere(ctx, &frame->scene->medium, &scene->medium, &medium);
+    if (result != TRL_OK) {
+        return result;
+    }
+    for (size_t i = 0; i < count && result == TRL_OK; i++) {
+        result = change_constituent(ctx, &medium, &changes[i]);
+    }
+    if (result == TRL_OK) {
+        result = check_changed(ctx, &medium);
+    }
+    if (result == TRL_OK) {
+        result = gpu_make_current(frame->gpu);
+    }
+    if (result == TRL_OK) {
+        result = frame_change_atmosphere(frame, &medium);
+    }
+    medium_finish(ctx, &medium);
+    return result;
+}
+
+bool trl_renderer_is_settled(const trl_renderer *renderer)
+{
+    return !renderer || frame_is_settled(&renderer->frame);
 }
 
 double trl_renderer_ground_altitude_m(const trl_renderer *renderer, double latitude_rad,

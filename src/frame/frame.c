@@ -3,6 +3,7 @@
 #include "frame/frame.h"
 
 #include "frame/daylight.h"
+#include "scatter/medium_edit.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -38,17 +39,45 @@ trl_result frame_set_sky_model(struct frame *frame, trl_sky_model model)
                         "pictures are not made by the sky model \"%s\"",
                         model == TRL_SKY_REFERENCE ? "reference" : "?");
     }
-    const struct sky_desc desc = {frame->gpu, &frame->scene->medium, frame->wavelengths};
+    const struct sky_desc desc = {frame->gpu, &frame->medium, frame->wavelengths};
     struct sky *sky = &frame->skies[model];
     const trl_result result = sky->self ? TRL_OK : sky_init(&desc, model, sky);
     frame->sky_model = result == TRL_OK ? model : frame->sky_model;
     return result;
 }
 
+// The models that were made go over one by one; one that cannot keeps its tables.
+trl_result frame_change_atmosphere(struct frame *frame, const struct medium *medium)
+{
+    struct medium changed;
+    trl_result result = medium_copy(frame->ctx, medium, &changed);
+    if (result != TRL_OK) {
+        return result;
+    }
+    struct medium old = frame->medium;
+    frame->medium = changed;
+    const struct sky_desc desc = {frame->gpu, &frame->medium, frame->wavelengths};
+    for (int m = 0; m < SKY_MODELS && result == TRL_OK; m++) {
+        if (frame->skies[m].self) {
+            result = sky_change(&frame->skies[m], &desc);
+        }
+    }
+    medium_finish(frame->ctx, &old);
+    return result;
+}
+
+bool frame_is_settled(const struct frame *frame)
+{
+    return sky_is_settled(&frame->skies[frame->sky_model]);
+}
+
 trl_result frame_init(const struct frame_desc *desc, struct frame *out)
 {
     *out = (struct frame){.ctx = desc->ctx, .scene = desc->scene, .wavelengths = desc->wavelengths};
-    trl_result result = open_gpu(desc, &out->gpu);
+    trl_result result = medium_copy(desc->ctx, &desc->scene->medium, &out->medium);
+    if (result == TRL_OK) {
+        result = open_gpu(desc, &out->gpu);
+    }
     if (result == TRL_OK) {
         result = ground_init(out->gpu, desc->scene, &out->ground);
     }
@@ -87,6 +116,7 @@ void frame_finish(struct frame *frame)
         ground_finish(&frame->ground);
     }
     gpu_destroy(&frame->gpu);
+    medium_finish(frame->ctx, &frame->medium);
     *frame = (struct frame){0};
 }
 

@@ -36,6 +36,7 @@ struct frame {
     const struct trl_scene *scene;
     struct gpu *gpu;
     struct ground ground;
+    struct medium medium;         // the scene's, with the atmosphere that was changed to; a copy
     struct sky skies[SKY_MODELS]; // by trl_sky_model; made when first asked for
     trl_sky_model sky_model;      // that frames are drawn with
     uint32_t wavelengths;
@@ -55,6 +56,12 @@ void frame_finish(struct frame *frame);
 // Draws with that model from now on; makes it when it is asked for first. A failure leaves the old
 // one.
 TRL_MUST_USE trl_result frame_set_sky_model(struct frame *frame, trl_sky_model model);
+
+// Goes over to the atmosphere of another medium: constituents and height.
+TRL_MUST_USE trl_result frame_change_atmosphere(struct frame *frame, const struct medium *medium);
+
+// Whether frames show it, as fine as it gets.
+bool frame_is_settled(const struct frame *frame);
 
 struct frame_request {
     const trl_view *view; // every number checked

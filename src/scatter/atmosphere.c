@@ -3,6 +3,7 @@
 #include "scatter/atmosphere.h"
 
 #include "scatter/cache.h"
+#include "scatter/medium_edit.h"
 
 #include <time.h>
 
@@ -30,6 +31,23 @@ static void fill_optics(struct optics *optics, const struct medium *medium, uint
         nm[k] = count > 1 ? FIRST_NM + (LAST_NM - FIRST_NM) * k / (count - 1) : 550;
     }
     optics_init(optics, medium, nm, (int)count);
+}
+
+// A draft has about two thirds of the grid each way, and knows fewer moments and directions.
+static struct solver_settings choose_settings(const struct optics *optics,
+                                              enum atmosphere_quality quality)
+{
+    struct solver_settings s = solver_settings_choose(optics, SOLVER_INTERACTIVE);
+    if (quality == ATMOSPHERE_DRAFT) {
+        s.lmax = s.lmax > 4 ? 4 : s.lmax;
+        s.levels = s.levels * 5 / 8;
+        s.suns = s.suns * 5 / 8;
+        s.zeniths = s.zeniths > 5 ? 5 : s.zeniths;
+        s.azimuths = 5;
+        s.first_nodes_per_shell *= 0.5;
+        s.tolerance *= 10;
+    }
+    return s;
 }
 
 static void choose_bands(struct atmosphere *a)
@@ -62,6 +80,7 @@ static bool load(struct atmosphere *a, const struct solver_settings *settings)
 {
     const double start = seconds();
     struct solution *s = &a->solution;
+    const struct table_size size = a->table.size;
     const bool is_loaded =
         solution_reserve(a->ctx, a->optics, settings, s) == TRL_OK &&
         table_reserve(a->ctx, &s->moments, 1 + a->peaked.count, &a->table) == TRL_OK &&
@@ -69,6 +88,7 @@ static bool load(struct atmosphere *a, const struct solver_settings *settings)
     if (!is_loaded) {
         solution_finish(a->ctx, s);
         table_finish(a->ctx, &a->table);
+        a->table.size = size;
     }
     a->stats.load_s = is_loaded ? seconds() - start : 0;
     a->stats.is_from_cache = is_loaded;
@@ -86,6 +106,24 @@ static void measure(struct atmosphere *a)
     a->stats.table_bytes = table_texels(&a->table) * sizeof(float);
 }
 
+// Solved, loaded, or neither (TRL_OK, without a table) where only the cache was asked.
+static trl_result obtain(struct atmosphere *a, const struct atmosphere_desc *desc)
+{
+    const struct solver_settings settings = choose_settings(a->optics, desc->quality);
+    const bool is_fine = desc->quality == ATMOSPHERE_FINE;
+    const bool has_cache = desc->uses_cache && is_fine && a->ctx->cache_dir[0] != '\0';
+    a->peaked = peaked_choose(a->optics);
+    a->table.size = is_fine ? table_size_default() : table_size_draft();
+    if ((has_cache && load(a, &settings)) || desc->only_from_cache) {
+        return TRL_OK;
+    }
+    const trl_result result = compute(a, &settings);
+    if (result == TRL_OK && has_cache) {
+        cache_store(a, &settings);
+    }
+    return result;
+}
+
 trl_result atmosphere_create(const trl_context *ctx, const struct medium *medium,
                              const struct atmosphere_desc *desc, struct atmosphere **out)
 {
@@ -99,22 +137,16 @@ trl_result atmosphere_create(const trl_context *ctx, const struct medium *medium
         return TRL_ERROR_MEMORY;
     }
     a->ctx = ctx;
+    trl_result result = medium_copy(ctx, medium, &a->medium);
     a->optics = mem_alloc(ctx, 1, sizeof *a->optics);
-    trl_result result = a->optics ? TRL_OK : TRL_ERROR_MEMORY;
-    if (result == TRL_OK) {
-        fill_optics(a->optics, medium, desc->wavelengths);
-        a->peaked = peaked_choose(a->optics);
-        const struct solver_settings settings =
-            solver_settings_choose(a->optics, SOLVER_INTERACTIVE);
-        const bool has_cache = desc->uses_cache && ctx->cache_dir[0] != '\0';
-        if (!has_cache || !load(a, &settings)) {
-            result = compute(a, &settings);
-            if (result == TRL_OK && has_cache) {
-                cache_store(a, &settings);
-            }
-        }
+    if (!a->optics) {
+        result = TRL_ERROR_MEMORY;
     }
-    if (result != TRL_OK) {
+    if (result == TRL_OK) {
+        fill_optics(a->optics, &a->medium, desc->wavelengths);
+        result = obtain(a, desc);
+    }
+    if (result != TRL_OK || !a->table.texels) {
         atmosphere_destroy(&a);
         return result;
     }
@@ -133,6 +165,7 @@ void atmosphere_destroy(struct atmosphere **atmosphere)
     table_finish(ctx, &a->table);
     solution_finish(ctx, &a->solution);
     mem_free(ctx, a->optics);
+    medium_finish(ctx, &a->medium);
     mem_free(ctx, a);
     *atmosphere = NULL;
 }

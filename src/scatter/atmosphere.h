@@ -6,12 +6,19 @@
 
 #include "scatter/table.h"
 
+enum atmosphere_quality {
+    ATMOSPHERE_FINE,
+    ATMOSPHERE_DRAFT // in a fraction of the time; never cached
+};
+
 struct atmosphere_desc {
     uint32_t wavelengths; // for the solver, 1 .. LANES
     bool uses_cache;
+    bool only_from_cache; // nothing is computed: *out is NULL where the cache has none
+    enum atmosphere_quality quality;
 };
 
-struct atmosphere_desc atmosphere_desc_default(void); // 16, cached
+struct atmosphere_desc atmosphere_desc_default(void); // 16, cached, fine
 
 struct atmosphere_stats {
     double solve_s, table_s; // 0 when from the cache
@@ -23,6 +30,7 @@ struct atmosphere_stats {
 
 struct atmosphere {
     const trl_context *ctx;
+    struct medium medium; // a copy
     struct optics *optics;
     struct solution solution;
     struct peaked peaked;
@@ -31,7 +39,7 @@ struct atmosphere {
     struct atmosphere_stats stats;
 };
 
-// The medium must outlive the atmosphere. Blocks for about a second, or 0.1 s from the cache.
+// Blocks for about a second, or 0.1 s from the cache.
 // TRL_ERROR_INVALID: more wavelengths than there are lanes; TRL_ERROR_MEMORY; TRL_ERROR_CANCELLED.
 // A cache that cannot be read or written is only a warning.
 TRL_MUST_USE trl_result atmosphere_create(const trl_context *ctx, const struct medium *medium,

@@ -79,7 +79,7 @@ static uint64_t hash_inputs(const struct atmosphere *a, const struct solver_sett
     for (int i = 0; i < o->constituent_count; i++) {
         hash = hash_constituent(hash, o, i);
     }
-    const struct table_size size = table_size_default();
+    const struct table_size size = a->table.size;
     const double numbers[] = {o->constituent_count, size.altitudes, size.views, size.suns,
                               size.azimuths};
     return hash_bytes(hash, numbers, sizeof numbers);

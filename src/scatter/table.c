@@ -67,6 +67,11 @@ struct table_size table_size_default(void)
     return (struct table_size){.altitudes = 32, .views = 128, .suns = 48, .azimuths = 8};
 }
 
+struct table_size table_size_draft(void)
+{
+    return (struct table_size){.altitudes = 16, .views = 56, .suns = 28, .azimuths = 6};
+}
+
 static size_t slice_floats(const struct table *t)
 {
     return (size_t)t->size.views * t->size.suns * t->size.azimuths * TEXEL_FLOATS;
@@ -80,7 +85,7 @@ size_t table_texels(const struct table *t)
 trl_result table_reserve(const trl_context *ctx, const struct moments *moments, int channels,
                          struct table *out)
 {
-    *out = (struct table){.size = table_size_default(),
+    *out = (struct table){.size = out->size,
                           .channels = channels,
                           .sun_centre = moments->sun_centre,
                           .sun_width = moments->sun_width,

@@ -43,13 +43,14 @@ struct table {
 };
 
 struct table_size table_size_default(void);
+struct table_size table_size_draft(void);       // a ninth of the work: soft at the horizon
 size_t table_texels(const struct table *table); // floats in all channels
 
-// Altitudes are uniform in sqrt(radius^2 - ground^2).
+// Altitudes are uniform in sqrt(radius^2 - ground^2). The caller has set out->size.
 TRL_MUST_USE trl_result table_init(const trl_context *ctx, const struct solution *solution,
                                    const struct peaked *peaked, const struct bands *bands,
                                    struct table *out);
-// Allocates without computing, for a cache to fill.
+// Allocates without computing, for a cache to fill; out->size as above.
 TRL_MUST_USE trl_result table_reserve(const trl_context *ctx, const struct moments *moments,
                                       int channels, struct table *out);
 void table_finish(const trl_context *ctx, struct table *table);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -189,6 +190,29 @@ double trl_scene_top_radius_m(const trl_scene *scene)
 trl_sky_model trl_scene_sky_model(const trl_scene *scene)
 {
     return scene->sky_model;
+}
+
+size_t trl_scene_constituent_count(const trl_scene *scene)
+{
+    return scene->medium.constituent_count;
+}
+
+const char *trl_scene_constituent_name(const trl_scene *scene, size_t index)
+{
+    const struct medium *medium = &scene->medium;
+    return index < medium->constituent_count ? medium->constituents[index].name : NULL;
+}
+
+double trl_scene_constituent_asymmetry(const trl_scene *scene, size_t index)
+{
+    const struct medium *medium = &scene->medium;
+    if (index >= medium->constituent_count) {
+        return (double)NAN;
+    }
+    const struct phase *phase = &medium->constituents[index].phase;
+    const bool has_one =
+        phase->kind == PHASE_HENYEY_GREENSTEIN || phase->kind == PHASE_CORNETTE_SHANKS;
+    return has_one ? phase->g : (double)NAN;
 }
 
 size_t trl_scene_view_count(const trl_scene *scene)

@@ -42,3 +42,22 @@ trl_result sky_draw(struct sky *sky, const struct sky_view *view)
 {
     return sky->model->draw(sky->self, view);
 }
+
+trl_result sky_change(struct sky *sky, const struct sky_desc *desc)
+{
+    if (sky->model->change) {
+        return sky->model->change(sky->self, desc->medium);
+    }
+    void *made = NULL;
+    const trl_result result = sky->model->create(desc, &made);
+    if (result == TRL_OK) {
+        sky->model->destroy(&sky->self);
+        sky->self = made;
+    }
+    return result;
+}
+
+bool sky_is_settled(const struct sky *sky)
+{
+    return !sky->self || !sky->model->is_settled || sky->model->is_settled(sky->self);
+}

@@ -47,6 +47,11 @@ struct sky_model {
     trl_result (*prepare)(void *self, const struct sky_view *view);
     // Draws all pixels of the target.
     trl_result (*draw)(void *self, const struct sky_view *view);
+    // Goes over to another medium of the same planet and star, which need live only until the call
+    // returns, while draws go on with the old one. NULL: the sky is made anew instead.
+    trl_result (*change)(void *self, const struct medium *medium);
+    // Whether draws show the medium last changed to, as fine as it gets. NULL: always.
+    bool (*is_settled)(const void *self);
 };
 
 extern const struct sky_model sky_spectral; // spectral.c
@@ -64,5 +69,8 @@ TRL_MUST_USE trl_result sky_init(const struct sky_desc *desc, trl_sky_model mode
 void sky_finish(struct sky *sky);
 TRL_MUST_USE trl_result sky_prepare(struct sky *sky, const struct sky_view *view);
 TRL_MUST_USE trl_result sky_draw(struct sky *sky, const struct sky_view *view);
+// The desc as for sky_init, with the new medium.
+TRL_MUST_USE trl_result sky_change(struct sky *sky, const struct sky_desc *desc);
+bool sky_is_settled(const struct sky *sky);
 
 #endif // SKY_SKY_H

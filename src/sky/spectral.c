@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // The spectral model: all orders of scattering, solved once (scatter/), looked up per pixel.
 // The maps are in spectral_maps.h; here they are drawn with.
+#include "scatter/resolver.h"
 #include "sky/ground_light.h"
 #include "sky/pixels.h"
 #include "sky/spectral_maps.h"
@@ -16,6 +17,8 @@ struct spectral {
     struct spectral_maps maps;
     struct sky_pixels pixels;
     struct gpu_program air, star, ground_bare, ground_surface;
+    uint32_t wavelengths;
+    struct resolver *resolver; // of a medium that was changed to, or NULL
 };
 
 static const char *const SLICE_NAMES[] = {"u_slice0", "u_slice1", "u_slice2", "u_slice3"};
@@ -54,6 +57,7 @@ static trl_result init(const struct sky_desc *desc, struct spectral *sky)
 {
     struct atmosphere_desc fine = atmosphere_desc_default();
     fine.wavelengths = desc->wavelengths;
+    sky->wavelengths = desc->wavelengths;
     struct atmosphere *atmosphere = NULL;
     trl_result result = atmosphere_create(sky->ctx, desc->medium, &fine, &atmosphere);
     if (result == TRL_OK) {
@@ -77,6 +81,7 @@ static void finish_programs(struct spectral *sky)
 static void spectral_destroy(void **self)
 {
     struct spectral *sky = *self;
+    resolver_destroy(&sky->resolver);
     finish_programs(sky);
     sky_pixels_finish(&sky->pixels);
     spectral_maps_finish(&sky->maps);
@@ -101,6 +106,57 @@ static trl_result spectral_create(const struct sky_desc *desc, void **self)
     return result;
 }
 
+// Goes over to what the resolver has solved, if anything. The old maps stay where that fails.
+static trl_result adopt_solved(struct spectral *sky)
+{
+    if (!sky->resolver) {
+        return TRL_OK;
+    }
+    const bool is_done =
+        resolver_is_done(sky->resolver); // before taking, so that nothing is missed
+    struct atmosphere *solved = resolver_take(sky->resolver);
+    if (is_done) {
+        resolver_destroy(&sky->resolver);
+    }
+    if (!solved) {
+        return TRL_OK;
+    }
+    struct spectral_maps maps;
+    trl_result result = spectral_maps_init(sky->gpu, solved, &maps);
+    if (result != TRL_OK) {
+        return result;
+    }
+    const bool has_programs = maps.atmosphere->peaked.count == sky->maps.atmosphere->peaked.count;
+    spectral_maps_finish(&sky->maps);
+    sky->maps = maps;
+    sky->pixels.top_radius_m = maps.atmosphere->optics->top_radius_m;
+    if (!has_programs) {
+        finish_programs(sky);
+        result = make_programs(sky);
+    }
+    return result;
+}
+
+// Another asymmetry shows at once; all else when it is solved.
+static trl_result spectral_change(void *self, const struct medium *medium)
+{
+    struct spectral *sky = self;
+    resolver_destroy(&sky->resolver);
+    const size_t count = (size_t)sky->maps.atmosphere->optics->constituent_count;
+    trl_result result = TRL_OK;
+    if (medium->constituent_count == count) {
+        result = spectral_maps_set_phases(&sky->maps, medium);
+    }
+    return result == TRL_OK ? resolver_start(sky->ctx, medium, sky->wavelengths, &sky->resolver)
+                            : result;
+}
+
+static bool spectral_is_settled(const void *self)
+{
+    const struct spectral *sky = self;
+    return !sky->resolver;
+}
+
 static trl_result spectral_prepare(void *self, const struct sky_view *view)
 {
     struct spectral *sky = self;
@@ -108,7 +164,8 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
     const double radius_m = sky_pixels_eye_radius(&sky->pixels, camera);
     const double sun_mu = vec3_dot(vec3_normalize(camera->position_m), camera->sun_direction);
     const struct spectral_eye eye = {radius_m, sun_mu, view->highest_m};
-    return spectral_maps_update(&sky->maps, &eye);
+    const trl_result result = adopt_solved(sky);
+    return result == TRL_OK ? spectral_maps_update(&sky->maps, &eye) : result;
 }
 
 // Columns of the matrices of the bands, as the shader multiplies them.
@@ -214,4 +271,6 @@ static trl_result spectral_draw(void *self, const struct sky_view *view)
 const struct sky_model sky_spectral = {.create = spectral_create,
                                        .destroy = spectral_destroy,
                                        .prepare = spectral_prepare,
-                                       .draw = spectral_draw};
+                                       .draw = spectral_draw,
+                                       .change = spectral_change,
+                                       .is_settled = spectral_is_settled};
