@@ -3,6 +3,7 @@
 #include "fly.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double pi = 3.14159265358979323846;
 
@@ -279,6 +280,8 @@ trl_view fly_flight_view(const struct fly_flight *flight, double elapsed_s)
     trl_view view = flight->from_view;
     fly_camera_to_view(&camera, &view);
     set_flight_sun(flight, t, &view);
+    memcpy(view.bodies, t < 0.5 ? flight->from_view.bodies : flight->to_view.bodies,
+           sizeof view.bodies);
     view.exposure_bias_ev =
         mix(flight->from_view.exposure_bias_ev, flight->to_view.exposure_bias_ev, t);
     return view;

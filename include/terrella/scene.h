@@ -38,7 +38,26 @@ TRL_API const char *trl_sky_model_name(trl_sky_model model);
 /// The model of that word. False when there is none, and *out is not touched. Threads: any.
 TRL_API bool trl_sky_model_find(const char *name, trl_sky_model *out);
 
-/// A camera, the star and the exposure.
+/// How a view says where a body of the scene is.
+typedef enum trl_body_mode {
+    TRL_BODY_ABSENT,   ///< not in the picture, and without effect on it
+    TRL_BODY_LOCAL,    ///< as the camera sees its centre: elevation and azimuth
+    TRL_BODY_SUBPOINT, ///< by the point of the planet over which it is at the zenith
+    TRL_BODY_FROM_SUN  ///< as the camera sees its centre: up and right of the star's, for one that
+                       ///< faces the star and is held level
+} trl_body_mode;
+
+/// Where a body is. What is not said is 0.
+typedef struct trl_body_place {
+    trl_body_mode mode;
+    double latitude_or_elevation_rad; ///< or the angle up from the star
+    double longitude_or_azimuth_rad;  ///< or the angle to the right; azimuth clockwise from north
+    double distance_m;                ///< from the planet's centre to its own; 0: the scene's
+} trl_body_place;
+
+enum { TRL_VIEW_MAX_BODIES = 8 };
+
+/// A camera, the star, other bodies and the exposure.
 typedef struct trl_view {
     double latitude_rad;  ///< planetocentric, [-pi/2, pi/2]
     double longitude_rad; ///< east positive
@@ -52,9 +71,10 @@ typedef struct trl_view {
     double sun_latitude_or_elevation_rad; ///< subsolar latitude, or elevation above the camera's
                                           ///< horizontal
     double sun_longitude_or_azimuth_rad;  ///< subsolar longitude, or azimuth clockwise from north
-    bool has_fixed_exposure;              ///< else exposure is found from the picture
-    double exposure_ev100;                ///< exposure value at ISO 100, when fixed
-    double exposure_bias_ev;              ///< added brightness in stops, both modes
+    trl_body_place bodies[TRL_VIEW_MAX_BODIES]; ///< in the order of the scene's; others absent
+    bool has_fixed_exposure;                    ///< else exposure is found from the picture
+    double exposure_ev100;                      ///< exposure value at ISO 100, when fixed
+    double exposure_bias_ev;                    ///< added brightness in stops, both modes
     trl_tone_curve tone_curve;
 } trl_view;
 
@@ -95,6 +115,11 @@ TRL_API const char *trl_scene_constituent_name(const trl_scene *scene, size_t in
 /// The asymmetry g of a constituent's phase function (Henyey-Greenstein or Cornette-Shanks); NAN
 /// for one that has none, and for an index beyond the count.
 TRL_API double trl_scene_constituent_asymmetry(const trl_scene *scene, size_t index);
+
+/// Bodies beside the planet and its star, at most TRL_VIEW_MAX_BODIES. Index below the count, else
+/// NULL.
+TRL_API size_t trl_scene_body_count(const trl_scene *scene);
+TRL_API const char *trl_scene_body_name(const trl_scene *scene, size_t index);
 
 /// Named views. Index below the count, else NULL.
 TRL_API size_t trl_scene_view_count(const trl_scene *scene);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "api/check.h"
 
+#include "scene/scene.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -34,8 +36,56 @@ static trl_result check_choices(const trl_context *ctx, const trl_view *view)
     return TRL_OK;
 }
 
-trl_result check_view(const trl_context *ctx, const trl_view *view, double radius_m)
+static trl_result check_body(const trl_context *ctx, const trl_body_place *place,
+                             const struct trl_scene *scene, const struct scene_body *body)
 {
+    const double any = DBL_MAX;
+    const struct range ranges[] = {
+        {"latitude_or_elevation_rad of a body", place->latitude_or_elevation_rad, -any, any},
+        {"longitude_or_azimuth_rad of a body", place->longitude_or_azimuth_rad, -any, any},
+        {"distance_m of a body", place->distance_m, 0, 1e13},
+    };
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        const trl_result result = check_range(ctx, &ranges[i]);
+        if (result != TRL_OK) {
+            return result;
+        }
+    }
+    const double nearest_m = scene_body_nearest_m(scene, body);
+    if (place->distance_m > 0 && !(place->distance_m > nearest_m)) {
+        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                        "view: distance_m of body \"%s\" is %g, but must be above %g: it would "
+                        "reach into the planet or its air",
+                        body->name, place->distance_m, nearest_m);
+    }
+    return TRL_OK;
+}
+
+static trl_result check_bodies(const trl_context *ctx, const trl_view *view,
+                               const struct trl_scene *scene)
+{
+    for (size_t i = 0; i < TRL_VIEW_MAX_BODIES; i++) {
+        const trl_body_place *place = &view->bodies[i];
+        TRL_REQUIRE(ctx, (unsigned)place->mode <= TRL_BODY_FROM_SUN);
+        if (place->mode == TRL_BODY_ABSENT) {
+            continue;
+        }
+        if (i >= scene->body_count) {
+            return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                            "view: body %zu has a place, but the scene has %zu bodies", i,
+                            scene->body_count);
+        }
+        const trl_result result = check_body(ctx, place, scene, &scene->bodies[i]);
+        if (result != TRL_OK) {
+            return result;
+        }
+    }
+    return TRL_OK;
+}
+
+trl_result check_view(const trl_context *ctx, const trl_view *view, const trl_scene *scene)
+{
+    const double radius_m = scene->medium.ground_radius_m;
     const double quarter = M_PI / 2 * (1 + 1e-9); // a right angle that came through degrees
     const double any = DBL_MAX;
     const double exposures = 64; // stops: 2^64 is far within floats
@@ -59,5 +109,6 @@ trl_result check_view(const trl_context *ctx, const trl_view *view, double radiu
             return result;
         }
     }
-    return check_choices(ctx, view);
+    const trl_result result = check_choices(ctx, view);
+    return result == TRL_OK ? check_bodies(ctx, view, scene) : result;
 }

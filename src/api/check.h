@@ -17,8 +17,9 @@
         }                                                                                          \
     } while (false)
 
-// That every number of a view is finite and in range for a planet of that radius, and every choice
-// known.
-TRL_MUST_USE trl_result check_view(const trl_context *ctx, const trl_view *view, double radius_m);
+// That every number of a view is finite and in range for the scene's planet and bodies, and every
+// choice known.
+TRL_MUST_USE trl_result check_view(const trl_context *ctx, const trl_view *view,
+                                   const trl_scene *scene);
 
 #endif // API_CHECK_H

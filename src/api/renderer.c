@@ -94,7 +94,7 @@ trl_result trl_renderer_draw(trl_renderer *renderer, const trl_view *view, uint3
     TRL_REQUIRE(renderer->ctx, isfinite(elapsed_s) && elapsed_s >= 0);
     trl_result result = check_size(renderer->ctx, width, height);
     if (result == TRL_OK) {
-        result = check_view(renderer->ctx, view, renderer->frame.scene->medium.ground_radius_m);
+        result = check_view(renderer->ctx, view, renderer->frame.scene);
     }
     const struct frame_request request = {view, width, height, elapsed_s};
     return result == TRL_OK ? frame_draw(&renderer->frame, &request) : result;
@@ -259,10 +259,13 @@ trl_result trl_renderer_resolve(const trl_renderer *renderer, const trl_view *vi
     TRL_REQUIRE(renderer->ctx, view != NULL);
     TRL_REQUIRE(renderer->ctx, out != NULL);
     const struct frame *frame = &renderer->frame;
-    const trl_result result = check_view(renderer->ctx, view, frame->scene->medium.ground_radius_m);
+    trl_result result = check_view(renderer->ctx, view, frame->scene);
+    if (result != TRL_OK) {
+        return result;
+    }
+    const struct camera_place place = frame_place(frame, view->latitude_rad, view->longitude_rad);
+    result = camera_check(renderer->ctx, view, &place);
     if (result == TRL_OK) {
-        const struct camera_place place =
-            frame_place(frame, view->latitude_rad, view->longitude_rad);
         *out = camera_view_resolve(view, &place);
     }
     return result;

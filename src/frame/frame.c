@@ -183,9 +183,11 @@ static trl_result fit_targets(struct frame *frame, uint32_t width, uint32_t heig
 struct camera_place frame_place(const struct frame *frame, double latitude_rad,
                                 double longitude_rad)
 {
-    return (struct camera_place){
-        .radius_m = frame->scene->medium.ground_radius_m,
-        .ground_altitude_m = ground_altitude_m(&frame->ground, latitude_rad, longitude_rad)};
+    return (struct camera_place){.radius_m = frame->scene->medium.ground_radius_m,
+                                 .ground_altitude_m =
+                                     ground_altitude_m(&frame->ground, latitude_rad, longitude_rad),
+                                 .bodies = frame->scene->bodies,
+                                 .body_count = frame->scene->body_count};
 }
 
 static trl_result draw_radiance(struct frame *frame, const struct camera *camera)
@@ -227,15 +229,18 @@ static trl_result develop(struct frame *frame, const struct frame_request *reque
 
 trl_result frame_draw(struct frame *frame, const struct frame_request *request)
 {
-    trl_result result = gpu_make_current(frame->gpu);
+    const trl_view *view = request->view;
+    const struct camera_place place = frame_place(frame, view->latitude_rad, view->longitude_rad);
+    trl_result result = camera_check(frame->ctx, view, &place);
+    if (result == TRL_OK) {
+        result = gpu_make_current(frame->gpu);
+    }
     if (result == TRL_OK) {
         result = fit_targets(frame, request->width, request->height);
     }
     if (result != TRL_OK) {
         return result;
     }
-    const trl_view *view = request->view;
-    const struct camera_place place = frame_place(frame, view->latitude_rad, view->longitude_rad);
     const struct camera camera =
         camera_resolve(view, &place, (double)request->width / request->height);
     frame->is_drawn = false;

@@ -13,19 +13,30 @@
 // No camera stands nearer to the ground than this, in metres: at the height of grass.
 #define CAMERA_MIN_HEIGHT_M 0.5
 
-// What a view stands on.
+struct scene_body;
+
+// What a view stands on, and what is around.
 struct camera_place {
-    double radius_m;          // of the reference sphere
-    double ground_altitude_m; // above the sphere, below the camera
+    double radius_m;                 // of the reference sphere
+    double ground_altitude_m;        // above the sphere, below the camera
+    const struct scene_body *bodies; // of the scene; NULL when there are none
+    size_t body_count;
 };
+
+// Whether the bodies can be where the view has them. TRL_ERROR_INVALID: the camera would be inside
+// one, or so far away that it cannot be seen in that direction at its distance from the planet.
+TRL_MUST_USE trl_result camera_check(const trl_context *ctx, const trl_view *view,
+                                     const struct camera_place *place);
 
 // Altitude above the sphere, lifted above the ground.
 double camera_altitude_m(const trl_view *view, const struct camera_place *place);
 
-// The camera of a view whose numbers are in range; `aspect` is width over height.
+// The camera of a view whose numbers are in range and which camera_check lets pass; `aspect` is
+// width over height.
 struct camera camera_resolve(const trl_view *view, const struct camera_place *place, double aspect);
 
-// The same view given by altitude above the sphere and subsolar point.
+// The same view given by altitude above the sphere, subsolar point, and bodies by the points below
+// them.
 trl_view camera_view_resolve(const trl_view *view, const struct camera_place *place);
 
 #endif // SCENE_CAMERA_H

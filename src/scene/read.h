@@ -8,6 +8,8 @@
 #include "scene/node.h"
 #include "scene/scene.h"
 
+#define SCENE_RADIANS_PER_DEGREE (3.14159265358979323846 / 180)
+
 // star, planet and atmosphere of the root.
 TRL_MUST_USE trl_result scene_read_medium(const struct scene_node *root, struct medium *out);
 
@@ -22,6 +24,21 @@ TRL_MUST_USE trl_result scene_read_sky_model(const struct scene_node *root, stru
 // surface.layers and views of the root; both may be missing.
 TRL_MUST_USE trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *out);
 TRL_MUST_USE trl_result scene_read_views(const struct scene_node *root, struct trl_scene *out);
+
+// bodies of the root, which may be missing, and those of a view.
+TRL_MUST_USE trl_result scene_read_bodies(const struct scene_node *root, struct trl_scene *out);
+TRL_MUST_USE trl_result scene_read_body_places(const struct scene_node *node,
+                                               const struct trl_scene *scene, trl_view *out);
+
+// Angles of a view, given in degrees, kept in radians.
+struct scene_angle {
+    const char *key;
+    const struct scene_range *range_deg;
+    double *out_rad;
+    bool is_optional;
+};
+TRL_MUST_USE trl_result scene_read_angles(const struct scene_node *object,
+                                          const struct scene_angle *angles, size_t count);
 
 // The path of a file that a scene names: as it is when absolute, else beside the scene when it is
 // there, else in the data folder, whether it is there or not. Free *out with mem_free.

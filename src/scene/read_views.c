@@ -4,42 +4,31 @@
 
 #include "scene/read.h"
 
-#define PI 3.14159265358979323846
-#define RADIANS_PER_DEGREE (PI / 180)
-
 static const struct scene_range latitudes_deg = {.min = -90, .max = 90};
 static const struct scene_range turns_deg = {.min = -360, .max = 360};
 static const struct scene_range distances = {.min = -1e6, .max = 1e11};
 static const struct scene_range heights = {.min = 0, .max = 1e11};
 
-// One number of a view. Angles are kept in radians.
-struct number {
-    const char *key;
-    const struct scene_range *range;
-    double *out;
-    bool is_optional;
-};
-
-static trl_result read_angle(const struct scene_node *object, const struct number *number)
+static trl_result read_angle(const struct scene_node *object, const struct scene_angle *angle)
 {
-    const struct scene_node node = scene_node_member(object, number->key);
-    if (number->is_optional && !node.value) {
+    const struct scene_node node = scene_node_member(object, angle->key);
+    if (angle->is_optional && !node.value) {
         return TRL_OK;
     }
     double angle_deg = 0;
-    const trl_result result = scene_node_number(&node, number->range, &angle_deg);
+    const trl_result result = scene_node_number(&node, angle->range_deg, &angle_deg);
     if (result == TRL_OK) {
-        *number->out = angle_deg * RADIANS_PER_DEGREE;
+        *angle->out_rad = angle_deg * SCENE_RADIANS_PER_DEGREE;
     }
     return result;
 }
 
-static trl_result read_angles(const struct scene_node *object, const struct number *numbers,
-                              size_t count)
+trl_result scene_read_angles(const struct scene_node *object, const struct scene_angle *angles,
+                             size_t count)
 {
     trl_result result = TRL_OK;
     for (size_t i = 0; result == TRL_OK && i < count; i++) {
-        result = read_angle(object, &numbers[i]);
+        result = read_angle(object, &angles[i]);
     }
     return result;
 }
@@ -71,7 +60,7 @@ static trl_result read_camera(const struct scene_node *node, trl_view *out)
                                 "vertical_fov_deg",
                                 NULL};
     const struct scene_range fields_deg = {.min = 0.001, .max = 170};
-    const struct number angles[] = {
+    const struct scene_angle angles[] = {
         {"latitude_deg", &latitudes_deg, &out->latitude_rad, false},
         {"longitude_deg", &turns_deg, &out->longitude_rad, false},
         {"heading_deg", &turns_deg, &out->heading_rad, true},
@@ -84,7 +73,7 @@ static trl_result read_camera(const struct scene_node *node, trl_view *out)
     out->pitch_rad = 0;
     out->roll_rad = 0;
     if (result == TRL_OK) {
-        result = read_angles(node, angles, sizeof angles / sizeof angles[0]);
+        result = scene_read_angles(node, angles, sizeof angles / sizeof angles[0]);
     }
     return result == TRL_OK ? read_altitude(node, out) : result;
 }
@@ -96,7 +85,7 @@ static trl_result read_sun(const struct scene_node *node, trl_view *out)
     const char *const local[] = {"elevation_deg", "azimuth_deg", NULL};
     const char *const subsolar[] = {"subsolar_latitude_deg", "subsolar_longitude_deg", NULL};
     const char *const *keys = is_local ? local : subsolar;
-    const struct number angles[] = {
+    const struct scene_angle angles[] = {
         {keys[0], &latitudes_deg, &out->sun_latitude_or_elevation_rad, false},
         {keys[1], &turns_deg, &out->sun_longitude_or_azimuth_rad, false},
     };
@@ -107,7 +96,7 @@ static trl_result read_sun(const struct scene_node *node, trl_view *out)
     if (result == TRL_OK) {
         result = scene_node_check_keys(node, keys);
     }
-    return result == TRL_OK ? read_angles(node, angles, 2) : result;
+    return result == TRL_OK ? scene_read_angles(node, angles, 2) : result;
 }
 
 static trl_result read_exposure(const struct scene_node *node, trl_view *out)
@@ -137,19 +126,24 @@ static trl_result read_exposure(const struct scene_node *node, trl_view *out)
     return result;
 }
 
-static trl_result read_view(const struct scene_node *node, trl_view *out)
+static trl_result read_view(const struct scene_node *node, const struct trl_scene *scene,
+                            trl_view *out)
 {
     *out = trl_view_default();
-    trl_result result =
-        scene_node_check_keys(node, (const char *const[]){"camera", "sun", "exposure", NULL});
+    trl_result result = scene_node_check_keys(
+        node, (const char *const[]){"camera", "sun", "bodies", "exposure", NULL});
     const struct scene_node camera = scene_node_member(node, "camera");
     const struct scene_node sun = scene_node_member(node, "sun");
+    const struct scene_node bodies = scene_node_member(node, "bodies");
     const struct scene_node exposure = scene_node_member(node, "exposure");
     if (result == TRL_OK) {
         result = read_camera(&camera, out);
     }
     if (result == TRL_OK) {
         result = read_sun(&sun, out);
+    }
+    if (result == TRL_OK && bodies.value) {
+        result = scene_read_body_places(&bodies, scene, out);
     }
     return result == TRL_OK ? read_exposure(&exposure, out) : result;
 }
@@ -172,7 +166,7 @@ static trl_result read_named_view(const struct scene_node *views, const char *na
         return TRL_ERROR_MEMORY;
     }
     out->view_count++;
-    return read_view(&node, &out->views[i]);
+    return read_view(&node, out, &out->views[i]);
 }
 
 trl_result scene_read_views(const struct scene_node *root, struct trl_scene *out)

@@ -54,8 +54,9 @@ static trl_result read_name(const struct scene_node *root, struct trl_scene *sce
 static trl_result read_root(const struct scene_node *root, struct trl_scene *scene)
 {
     // Editors find the schema by "$schema"; it says nothing to the reader.
-    const char *const keys[] = {"$schema",    "terrella", "name",  "star",      "planet",
-                                "atmosphere", "surface",  "views", "sky_model", NULL};
+    const char *const keys[] = {"$schema",   "terrella",   "name",    "star",
+                                "planet",    "atmosphere", "surface", "views",
+                                "sky_model", "bodies",     NULL};
     const struct scene_node schema = scene_node_member(root, "$schema");
     const char *ignored = NULL;
     trl_result result = scene_node_check_keys(root, keys);
@@ -76,6 +77,9 @@ static trl_result read_root(const struct scene_node *root, struct trl_scene *sce
     }
     if (result == TRL_OK) {
         result = scene_read_layers(root, scene);
+    }
+    if (result == TRL_OK) {
+        result = scene_read_bodies(root, scene);
     }
     return result == TRL_OK ? scene_read_views(root, scene) : result;
 }
@@ -163,6 +167,10 @@ void trl_scene_destroy(trl_scene **scene)
         mem_free(ctx, s->layers[i].name);
         mem_free(ctx, s->layers[i].file);
         mem_free(ctx, s->layers[i].path);
+    }
+    for (size_t i = 0; i < s->body_count; i++) {
+        mem_free(ctx, s->bodies[i].name);
+        spectrum_finish(ctx, &s->bodies[i].geometric_albedo);
     }
     for (size_t i = 0; i < s->view_count; i++) {
         mem_free(ctx, s->view_names[i]);

@@ -7,7 +7,7 @@
 #include "scatter/medium.h"
 #include <terrella/scene.h>
 
-enum { SCENE_MAX_LAYERS = 32, SCENE_MAX_VIEWS = 256 };
+enum { SCENE_MAX_LAYERS = 32, SCENE_MAX_VIEWS = 256, SCENE_MAX_BODIES = TRL_VIEW_MAX_BODIES };
 
 enum layer_kind {
     LAYER_ELEVATION, // metres above the reference sphere
@@ -37,6 +37,17 @@ struct scene_detail {
     double smallest_m; // shortest wavelength
 };
 
+// A moon or another planet; views say where it is.
+struct scene_body {
+    char *name; // owned
+    double radius_m;
+    double distance_m;                // of its centre from the planet's, where a view says no other
+    struct spectrum geometric_albedo; // fully lit, relative to a Lambertian disc facing the star
+};
+
+// What a body's distance must be above, in metres: clear of the planet and its air.
+double scene_body_nearest_m(const struct trl_scene *scene, const struct scene_body *body);
+
 struct trl_scene {
     const trl_context *ctx;
     char *name;
@@ -45,6 +56,8 @@ struct trl_scene {
     size_t layer_count;
     struct layer layers[SCENE_MAX_LAYERS];
     struct scene_detail detail;
+    size_t body_count;
+    struct scene_body bodies[SCENE_MAX_BODIES];
     size_t view_count;
     char *view_names[SCENE_MAX_VIEWS];
     trl_view views[SCENE_MAX_VIEWS];

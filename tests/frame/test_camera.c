@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Cameras of views: conventions of angles, the star's place, altitudes, poles.
+#include "fixture.h"
 #include "scene/camera.h"
+#include "scene/scene.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -185,6 +187,96 @@ static void a_resolved_view_shows_the_same(void **state)
     assert_vec(vec3_sub(b.position_m, a.position_m), 0, 0, 0);
 }
 
+static const struct scene_body MOON = {
+    .name = (char *)"Moon", .radius_m = 1.7374e6, .distance_m = 3.844e8};
+static const struct camera_place BELOW_MOON = {
+    .radius_m = 6371000.0, .bodies = &MOON, .body_count = 1};
+
+// Cosine of the angle to a direction, and the distance from the planet's centre.
+static void assert_body(const struct camera *camera, struct vec3 toward, double distance_m)
+{
+    assert_int_equal(camera->body_count, 1);
+    assert_int_equal(camera->bodies[0].index, 0);
+    assert_true(camera->bodies[0].radius_m == MOON.radius_m);
+    const struct vec3 way_m = vec3_sub(camera->bodies[0].position_m, camera->position_m);
+    assert_true(vec3_length(vec3_cross(vec3_normalize(way_m), toward)) < DIRECTION_TOLERANCE);
+    assert_true(vec3_dot(way_m, toward) > 0);
+    assert_true(fabs(vec3_length(camera->bodies[0].position_m) / distance_m - 1) < 1e-14);
+}
+
+static void bodies_stand_where_the_camera_sees_them(void **state)
+{
+    (void)state;
+    trl_view view = view_at(0.6, -2.1);
+    assert_int_equal(camera_resolve(&view, &BELOW_MOON, 1).body_count, 0);
+    view.bodies[0] = (trl_body_place){TRL_BODY_LOCAL, 0.1, 1.4, 0};
+    view.heading_rad = 1.4;
+    view.pitch_rad = 0.1;
+    struct camera camera = camera_resolve(&view, &BELOW_MOON, 1);
+    assert_body(&camera, camera.forward, MOON.distance_m);
+    view.bodies[0].distance_m = 4e8;
+    camera = camera_resolve(&view, &BELOW_MOON, 1);
+    assert_body(&camera, camera.forward, 4e8);
+}
+
+// Parallax is left to the camera: the Moon on the horizon of one place is over another.
+static void bodies_stand_over_their_points_of_the_planet(void **state)
+{
+    (void)state;
+    trl_view view = view_at(0.2, 0.3);
+    view.bodies[0] = (trl_body_place){TRL_BODY_SUBPOINT, 0.2, 0.3, 0};
+    const struct camera below = camera_resolve(&view, &BELOW_MOON, 1);
+    assert_body(&below, vec3_normalize(below.position_m), MOON.distance_m);
+}
+
+static void offsets_from_the_sun_are_right_and_up_for_a_level_camera(void **state)
+{
+    (void)state;
+    trl_view view = view_at(0.6, -2.1);
+    view.sun_mode = TRL_SUN_LOCAL;
+    view.sun_latitude_or_elevation_rad = view.pitch_rad = 0.4;
+    view.sun_longitude_or_azimuth_rad = view.heading_rad = 3.0;
+    view.bodies[0].mode = TRL_BODY_FROM_SUN;
+    struct camera c = camera_resolve(&view, &BELOW_MOON, 1);
+    assert_body(&c, c.sun_direction, MOON.distance_m);
+    view.bodies[0].longitude_or_azimuth_rad = 0.003;
+    view.bodies[0].latitude_or_elevation_rad = -0.004;
+    c = camera_resolve(&view, &BELOW_MOON, 1);
+    const struct vec3 aside = vec3_add(vec3_scale(c.right, 0.6), vec3_scale(c.up, -0.8));
+    assert_body(&c, vec3_add(vec3_scale(c.forward, cos(0.005)), vec3_scale(aside, sin(0.005))),
+                MOON.distance_m);
+}
+
+static void resolved_bodies_stay_where_they_are(void **state)
+{
+    (void)state;
+    trl_view view = view_at(0.6, -2.1);
+    view.bodies[0] = (trl_body_place){TRL_BODY_LOCAL, -0.1, 1.4, 5e8};
+    const trl_view resolved = camera_view_resolve(&view, &BELOW_MOON);
+    assert_int_equal(resolved.bodies[0].mode, TRL_BODY_SUBPOINT);
+    const struct camera a = camera_resolve(&view, &BELOW_MOON, 1);
+    const struct camera b = camera_resolve(&resolved, &BELOW_MOON, 1);
+    // A few roundings of the distance, 5e8 m.
+    assert_true(vec3_length(vec3_sub(a.bodies[0].position_m, b.bodies[0].position_m)) < 1e-6);
+}
+
+static void cameras_that_cannot_see_a_body_so_are_refused(void **state)
+{
+    struct fixture *f = *state;
+    trl_view view = view_at(0, 0);
+    view.bodies[0] = (trl_body_place){TRL_BODY_SUBPOINT, 0, 0, 0};
+    view.altitude_m = 3.844e8 - 6371000.0 - 1.7374e6; // on its surface
+    fixture_expect_error(f, camera_check(f->ctx, &view, &BELOW_MOON), TRL_ERROR_INVALID,
+                         TRL_LOG_ITEM_ARGUMENT);
+    view.altitude_m -= 1;
+    assert_int_equal(camera_check(f->ctx, &view, &BELOW_MOON), TRL_OK);
+    view.altitude_m = 5e8; // beyond
+    assert_int_equal(camera_check(f->ctx, &view, &BELOW_MOON), TRL_OK);
+    view.bodies[0].mode = TRL_BODY_LOCAL;
+    fixture_expect_error(f, camera_check(f->ctx, &view, &BELOW_MOON), TRL_ERROR_INVALID,
+                         TRL_LOG_ITEM_ARGUMENT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -200,6 +292,12 @@ int main(void)
         cmocka_unit_test(subsolar_sun_stands_over_its_point),
         cmocka_unit_test(local_sun_has_elevation_and_azimuth_of_the_camera),
         cmocka_unit_test(a_resolved_view_shows_the_same),
+        cmocka_unit_test(bodies_stand_where_the_camera_sees_them),
+        cmocka_unit_test(bodies_stand_over_their_points_of_the_planet),
+        cmocka_unit_test(offsets_from_the_sun_are_right_and_up_for_a_level_camera),
+        cmocka_unit_test(resolved_bodies_stay_where_they_are),
+        cmocka_unit_test_setup_teardown(cameras_that_cannot_see_a_body_so_are_refused,
+                                        fixture_set_up, fixture_tear_down),
     };
     return cmocka_run_group_tests_name("camera", tests, NULL, NULL);
 }

@@ -93,6 +93,24 @@ CHANGES = [
     ("views one sun", {"subsolar_latitude_deg": 1, "subsolar_longitude_deg": 2}, True),
     ("views one sun", {"subsolar_latitude_deg": 1, "azimuth_deg": 2}, False),
     ("views one sun", {}, False), ("views one sun elevation_deg", -91, False),
+    ("bodies", {}, False),
+    ("bodies 0 name", REMOVED, False), ("bodies 0 name", "comment", False),
+    ("bodies 0 name", "x" * 65, False), ("bodies 0 radius_m", 0, False),
+    ("bodies 0 radius_m", REMOVED, False), ("bodies 0 distance_m", REMOVED, False),
+    ("bodies 0 geometric_albedo", [[500, 0.1]], True), ("bodies 0 geometric_albedo", 2.1, False),
+    ("bodies 0 geometric_albedo", REMOVED, False), ("bodies 0 mass_kg", 1, False),
+    ("views one bodies", REMOVED, True), ("views one bodies", {}, True),
+    ("views one bodies comment", "x", True), ("views one bodies", [], False),
+    ("views one bodies Moon", {}, False), ("views one bodies Moon", 3, False),
+    ("views one bodies Moon", {"latitude_deg": 1, "longitude_deg": 2, "distance_m": 4e8}, True),
+    ("views one bodies Moon", {"latitude_deg": 1, "azimuth_deg": 2}, False),
+    ("views one bodies Moon", {"latitude_deg": 1}, False),
+    ("views one bodies Moon", {"offset_from_sun_deg": [0.1, -0.2]}, True),
+    ("views one bodies Moon", {"offset_from_sun_deg": [0.1]}, False),
+    ("views one bodies Moon", {"offset_from_sun_deg": [0.1, 181]}, False),
+    ("views one bodies Moon", {"offset_from_sun_deg": 0.1}, False),
+    ("views one bodies Moon", {"offset_from_sun_deg": [0, 0], "latitude_deg": 1}, False),
+    ("views one bodies Moon elevation_deg", 91, False), ("views one bodies Moon phase", 1, False),
     ("views one exposure", {}, True), ("views one exposure", {"tone": "filmic", "ev100": 15}, True),
     ("views one exposure", {"tone": "warm"}, False), ("views one exposure", {"bias_ev": 41}, False),
 ]
@@ -106,9 +124,12 @@ SAMPLE = {
         "name": "air", "scattering_per_m": 1e-5, "absorption_per_m": 0,
         "profile": {"exponential": {"scale_height_m": 8000}}, "phase": "rayleigh"}]},
     "surface": {"layers": [{"elevation": "a.tif"}]},
+    "bodies": [{"name": "Moon", "radius_m": 1737400, "distance_m": 384400000,
+                "geometric_albedo": 0.12}],
     "views": {"one": {
         "camera": {"latitude_deg": 10, "longitude_deg": 20, "altitude_m": 3},
-        "sun": {"elevation_deg": 45, "azimuth_deg": 180}}},
+        "sun": {"elevation_deg": 45, "azimuth_deg": 180},
+        "bodies": {"Moon": {"elevation_deg": 20, "azimuth_deg": 90}}}},
 }
 
 

@@ -19,7 +19,10 @@ static const char sample_scene[] =
     "  \"surface\": { \"layers\": [ { \"elevation\": \"a.tif\" } ] },\n"
     "  \"views\": { \"one\": {\n"
     "    \"camera\": { \"latitude_deg\": 10, \"longitude_deg\": 20, \"altitude_m\": 3 },\n"
-    "    \"sun\": { \"elevation_deg\": 45, \"azimuth_deg\": 180 } } } }\n";
+    "    \"sun\": { \"elevation_deg\": 45, \"azimuth_deg\": 180 },\n"
+    "    \"bodies\": { \"Moon\": { \"elevation_deg\": 20, \"azimuth_deg\": 90 } } } },\n"
+    "  \"bodies\": [ { \"name\": \"Moon\", \"radius_m\": 2e6, \"distance_m\": 4e8,\n"
+    "    \"geometric_albedo\": 0.1 } ] }\n";
 
 // A copy with the first `from` replaced by `to`; free() it. NULL when `from` is not there.
 static inline char *sample_replace(const char *from, const char *to)

@@ -64,6 +64,35 @@ static void sample_is_read_whole(void **state)
     trl_scene_destroy(&s);
 }
 
+static void bodies_and_their_places_are_read(void **state)
+{
+    trl_scene *s = parse(*state, sample_scene);
+    assert_int_equal(trl_scene_body_count(s), 1);
+    assert_string_equal(trl_scene_body_name(s, 0), "Moon");
+    assert_null(trl_scene_body_name(s, 1));
+    assert_near(s->bodies[0].radius_m, 2e6);
+    assert_near(s->bodies[0].distance_m, 4e8);
+    assert_near(s->bodies[0].geometric_albedo.constant, 0.1);
+    assert_int_equal(s->views[0].bodies[0].mode, TRL_BODY_LOCAL);
+    assert_near(s->views[0].bodies[0].latitude_or_elevation_rad, 20 * PI / 180);
+    assert_near(s->views[0].bodies[0].longitude_or_azimuth_rad, 90 * PI / 180);
+    assert_true(s->views[0].bodies[0].distance_m == 0);
+    assert_int_equal(s->views[0].bodies[1].mode, TRL_BODY_ABSENT);
+    trl_scene_destroy(&s);
+    s = parse_with(*state, "\"elevation_deg\": 20, \"azimuth_deg\": 90",
+                   "\"offset_from_sun_deg\": [3, -6], \"distance_m\": 5e8");
+    assert_int_equal(s->views[0].bodies[0].mode, TRL_BODY_FROM_SUN);
+    assert_near(s->views[0].bodies[0].longitude_or_azimuth_rad, 3 * PI / 180);
+    assert_near(s->views[0].bodies[0].latitude_or_elevation_rad, -6 * PI / 180);
+    assert_near(s->views[0].bodies[0].distance_m, 5e8);
+    trl_scene_destroy(&s);
+    s = parse_with(*state, "{ \"elevation_deg\": 20, \"azimuth_deg\": 90 }",
+                   "{ \"latitude_deg\": 2, \"longitude_deg\": -90 }");
+    assert_int_equal(s->views[0].bodies[0].mode, TRL_BODY_SUBPOINT);
+    assert_near(s->views[0].bodies[0].longitude_or_azimuth_rad, -90 * PI / 180);
+    trl_scene_destroy(&s);
+}
+
 static void optional_parts_may_be_missing(void **state)
 {
     trl_scene *s = parse(*state, "{\"terrella\":1,\"star\":{\"spectral_irradiance\":1},"
@@ -322,6 +351,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sample_is_read_whole),
+        cmocka_unit_test(bodies_and_their_places_are_read),
         cmocka_unit_test(optional_parts_may_be_missing),
         cmocka_unit_test(missing_coefficients_are_zero_and_need_no_phase),
         cmocka_unit_test(every_spectrum_form_is_read),

@@ -201,6 +201,38 @@ static void files_that_could_be_fetched_are_refused(void **state)
     ASSERT_ERRORS(state, cases);
 }
 
+static void faults_of_bodies_are_told(void **state)
+{
+    const struct error_case cases[] = {
+        {"2e6", "0", "t.json:13:45: bodies[0].radius_m: is 0; must be a number >= 1"},
+        {"4e8", "8471000",
+         "t.json:13:64: bodies[0].distance_m: is 8471000; must be above 8471000: the body would "
+         "reach into the planet or its air"},
+        {"4e8", "1e14", "t.json:13:64: bodies[0].distance_m: is 1e+14; must be"},
+        {"\"name\": \"Moon\", ", "", "t.json:13:15: bodies[0].name: is missing"},
+        {"\"name\": \"Moon\"", "\"name\": \"comment\"",
+         "t.json:13:25: bodies[0].name: must have at most 64 bytes and not be \"comment\""},
+        {"0.1 } ]", "-0.1 } ]", "t.json:14:25: bodies[0].geometric_albedo: is -0.1; must be"},
+        {"0.1 } ]",
+         "0.1 }, {\"name\": \"Moon\", \"radius_m\": 1, \"distance_m\": 1e9, "
+         "\"geometric_albedo\": 0} ]",
+         "t.json:14:41: bodies[1].name: is the name of an earlier body"},
+        {"\"Moon\": {", "\"Mon\": {",
+         "t.json:12:17: views.one.bodies.Mon: unknown key; the nearest known one is \"Moon\""},
+        {"{ \"elevation_deg\": 20, \"azimuth_deg\": 90 }", "{ \"elevation_deg\": 20 }",
+         "t.json:12:25: views.one.bodies.Moon.azimuth_deg: is missing; must be a number"},
+        {"\"azimuth_deg\": 90", "\"longitude_deg\": 90",
+         "t.json:12:25: views.one.bodies.Moon: must have one of elevation_deg with azimuth_deg"},
+        {"{ \"elevation_deg\": 20, \"azimuth_deg\": 90 }", "{}",
+         "t.json:12:25: views.one.bodies.Moon: must have one of elevation_deg with azimuth_deg"},
+        {"\"elevation_deg\": 20, \"azimuth_deg\": 90", "\"offset_from_sun_deg\": [1]",
+         "t.json:12:50: views.one.bodies.Moon.offset_from_sun_deg: must be a pair [right, up]"},
+        {"\"azimuth_deg\": 90", "\"azimuth_deg\": 90, \"distance_m\": 7e6",
+         "t.json:12:81: views.one.bodies.Moon.distance_m: is 7000000; must be above 8471000"},
+    };
+    ASSERT_ERRORS(state, cases);
+}
+
 static void every_truncation_is_one_error(void **state)
 {
     struct fixture *f = *state;
@@ -268,6 +300,7 @@ int main(void)
         cmocka_unit_test(missing_and_wrongly_typed_values_are_named),
         cmocka_unit_test(numbers_out_of_range_say_what_is_allowed),
         cmocka_unit_test(files_that_could_be_fetched_are_refused),
+        cmocka_unit_test(faults_of_bodies_are_told),
         cmocka_unit_test(every_truncation_is_one_error),
         cmocka_unit_test(other_roots_are_refused),
         cmocka_unit_test(sizes_are_bounded),
