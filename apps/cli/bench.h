@@ -2,25 +2,11 @@
 // SPDX-License-Identifier: MIT
 #ifndef CLI_BENCH_H
 #define CLI_BENCH_H
-// What the benches share: samples gathered into rows.
+// What the benches share: samples gathered into rows, and what a paper says of the same.
+//
+// A new bench is a function here, in a file of its own, and a line in the list of bench.c.
 
-#include "app.h"
-
-enum { BENCH_MAX_ROWS = 256, BENCH_MAX_RUNS = 1000, BENCH_NAME_MAX = 64 };
-
-// One quantity of one case, measured some times.
-struct bench_row {
-    char case_name[BENCH_NAME_MAX];
-    char metric[BENCH_NAME_MAX];
-    const char *unit;
-    double *samples; // owned; BENCH_MAX_RUNS of them
-    int runs;
-};
-
-struct bench_table {
-    struct bench_row rows[BENCH_MAX_ROWS];
-    int row_count;
-};
+#include "bench_table.h"
 
 // What a bench is run with.
 struct bench_job {
@@ -29,17 +15,6 @@ struct bench_job {
     int runs;          // 0: the bench's own number
     struct bench_table *table;
 };
-
-struct bench_sample {
-    const char *case_name;
-    const char *metric;
-    const char *unit; // a literal
-    double value;
-};
-
-// Adds a sample to the row of its case and metric, which appears in the order of first use.
-// TRL_ERROR_MEMORY when there is no place for it.
-trl_result bench_add(struct bench_table *table, struct bench_sample sample);
 
 // The job's scene, or the one of that name that ships with the program. Errors are reported.
 trl_result bench_load_scene(const struct bench_job *job, const char *file, trl_scene **out);

@@ -16,7 +16,7 @@ class Bench(ProgramTest):
         return [json.loads(line) for line in done.stdout.splitlines()]
 
     def check_form(self, bench, name):
-        self.assertEqual(list(bench), ["bench", "machine", "rows"])
+        self.assertEqual(list(bench), ["bench", "source", "machine", "rows", "notes"])
         self.assertEqual(bench["bench"], name)
         self.assertEqual(list(bench["machine"]), ["cpu", "cores", "load_average", "gl_renderer"])
         self.assertGreater(len(bench["rows"]), 0)
@@ -24,6 +24,21 @@ class Bench(ProgramTest):
             self.assertEqual(list(row), ["case", "metric", "unit", "median", "min", "runs"])
             self.assertLessEqual(row["min"], row["median"])
             self.assertEqual(row["runs"], RUNS)
+
+    def test_list_names_all_and_measures_nothing(self):
+        lines = self.expect_success("bench", "--list").stdout.splitlines()
+        names = [line.split()[0] for line in lines]
+        self.assertEqual(names[:4], ["solver", "tables", "sky-frame", "start"])
+        self.assertEqual(len(set(names)), len(names))
+        for line in lines:
+            self.assertGreater(len(line.split()), 3, line)
+
+    def test_unknown_names_are_told(self):
+        self.expect_failure(2, ["bench", "solvre"], ["solvre", "solver"])
+        self.expect_failure(2, ["bench", "gravity"], ["gravity", "--list"])
+
+    def test_named_twice_runs_once(self):
+        self.assertEqual(len(self.measure("solver", "solver")), 1)
 
     def test_solver_and_tables(self):
         solver, tables = self.measure("solver", "tables")
