@@ -3,6 +3,7 @@
 // terrella render: one picture of a scene.
 #include "app.h"
 #include "commands.h"
+#include "compare.h"
 #include "output.h"
 #include "shrink.h"
 #include "view_options.h"
@@ -20,6 +21,8 @@ struct render_arguments {
     struct number_size size;
     struct option_number samples;
     struct view_choice view;
+    const char *compare; // models between commas; NULL: one picture
+    struct compare_models models;
     bool lists_views;
     bool shows_timings;
     bool is_quiet;
@@ -35,14 +38,13 @@ static const char examples[] =
     "  terrella render scenes/earth.json --view himalaya-morning --size 1920x1080 \\\n"
     "      -o himalaya.png\n"
     "  terrella render scenes/earth.json --view orbit --sun-elevation 10 \\\n"
-    "      --sun-azimuth 90 -o orbit.exr\n";
+    "      --sun-azimuth 90 -o orbit.exr\n"
+    "  terrella render scenes/earth.json --view limb --compare spectral,single\n";
 
 static enum options_outcome read_arguments(int argc, char **argv, struct render_arguments *out)
 {
-    *out = (struct render_arguments){.output = default_output,
-                                     .size = {1280, 720},
-                                     .samples = {.value = 1},
-                                     .view = view_choice_default()};
+    *out = (struct render_arguments){
+        .output = default_output, .samples = {.value = 1}, .view = view_choice_default()};
     const struct option picture[] = {
         {.name = "output",
          .letter = 'o',
@@ -54,7 +56,8 @@ static enum options_outcome read_arguments(int argc, char **argv, struct render_
          .kind = OPTION_SIZE,
          .target.size = &out->size,
          .metavar = "WxH",
-         .help = "Width and height in pixels. Default: 1280x720."},
+         .help = "Width and height in pixels. Default: 1280x720; with --compare, of each model's "
+                 "picture, 640x360."},
         {.name = "samples",
          .kind = OPTION_NUMBER,
          .target.number = &out->samples,
@@ -62,6 +65,14 @@ static enum options_outcome read_arguments(int argc, char **argv, struct render_
          .range = {1, 4},
          .is_whole = true,
          .help = "Draw N x N times the pixels and average: smooth edges. 1 to 4. Default: 1."},
+        {.name = "compare",
+         .kind = OPTION_TEXT,
+         .target.text = &out->compare,
+         .metavar = "MODELS",
+         .help = "The same view by several models of the sky (see --sky-model), as in "
+                 "spectral,single,rayleigh: side by side with one exposure, and below how the "
+                 "luminance of the others differs from the first's. A .exr holds the radiances "
+                 "and below them the differences as shares, without words."},
         {.name = "views",
          .kind = OPTION_FLAG,
          .target.flag = &out->lists_views,
@@ -100,6 +111,27 @@ static enum exit_status choose_format(const char *path, enum picture_format *out
     }
     return report_error(EXIT_USAGE, "render: --output: '%s' ends neither with .png nor with .exr",
                         path);
+}
+
+// What contradicts itself, and what depends on it.
+static enum exit_status complete_arguments(struct render_arguments *arguments)
+{
+    enum exit_status status = EXIT_OK;
+    if (arguments->compare) {
+        status = compare_models_parse(arguments->compare, &arguments->models);
+    }
+    if (status == EXIT_OK && arguments->compare && arguments->shows_timings) {
+        status = report_error(EXIT_USAGE, "render: --compare and --timings cannot both be given");
+    }
+    if (status == EXIT_OK && arguments->compare &&
+        arguments->view.sky_model != TRL_SKY_MODEL_OF_SCENE) {
+        status = report_error(EXIT_USAGE, "render: --compare and --sky-model cannot both be given");
+    }
+    if (arguments->size.width == 0) {
+        arguments->size =
+            arguments->compare ? (struct number_size){640, 360} : (struct number_size){1280, 720};
+    }
+    return status;
 }
 
 static void print_views(const trl_scene *scene)
@@ -200,9 +232,31 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     return result;
 }
 
+// The sheet of several models.
+static struct compare_desc make_comparison(struct app *app, const trl_scene *scene,
+                                           const trl_view *view,
+                                           const struct render_arguments *arguments)
+{
+    const char *name = arguments->view.name;
+    if (!name) {
+        name = trl_scene_view_count(scene) > 0 ? trl_scene_view_name(scene, 0) : "";
+    }
+    return (struct compare_desc){.app = app,
+                                 .scene = scene,
+                                 .view = view,
+                                 .view_name = name,
+                                 .models = arguments->models,
+                                 .size = arguments->size,
+                                 .samples = sample_count(arguments),
+                                 .output = arguments->output,
+                                 .is_exr =
+                                     strcasecmp(output_suffix(arguments->output), "exr") == 0};
+}
+
 static enum exit_status render_scene(struct app *app, const trl_scene *scene,
                                      const struct render_arguments *arguments)
 {
+    struct number_size size = arguments->size;
     enum picture_format format = PICTURE_PNG;
     trl_view view;
     enum exit_status status = choose_format(arguments->output, &format);
@@ -212,12 +266,16 @@ static enum exit_status render_scene(struct app *app, const trl_scene *scene,
     if (status == EXIT_OK) {
         status = output_check_writable(arguments->output);
     }
-    if (status == EXIT_OK) {
+    if (status == EXIT_OK && arguments->compare) {
+        const struct compare_desc sheet = make_comparison(app, scene, &view, arguments);
+        status = report_result(compare_write(&sheet, arguments->is_quiet ? NULL : stdout));
+        size = compare_sheet_size(&sheet);
+    } else if (status == EXIT_OK) {
         status = report_result(draw_picture(app, scene, &view, arguments, format));
     }
     if (status == EXIT_OK && !arguments->is_quiet) {
-        printf("wrote %s: %ux%u, %.1f s\n", arguments->output, arguments->size.width,
-               arguments->size.height, progress_clock_s() - app->progress.started_s);
+        printf("wrote %s: %ux%u, %.1f s\n", arguments->output, size.width, size.height,
+               progress_clock_s() - app->progress.started_s);
     }
     return status;
 }
@@ -230,7 +288,8 @@ enum exit_status command_render(int argc, char **argv)
         return outcome == OPTIONS_HELP ? EXIT_OK : EXIT_USAGE;
     }
     enum picture_format format = PICTURE_PNG;
-    if (choose_format(arguments.output, &format) != EXIT_OK) {
+    if (choose_format(arguments.output, &format) != EXIT_OK ||
+        complete_arguments(&arguments) != EXIT_OK) {
         return EXIT_USAGE;
     }
     struct app app;

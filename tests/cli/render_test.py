@@ -97,6 +97,54 @@ class Pictures(ProgramTest):
             self.expect_success("render", self.scene, "--size", size, "-o", "a.png")
 
 
+class Comparisons(ProgramTest):
+    """One sheet of several models: margins of 8 pixels, lines of 12 (apps/cli/compare.c)."""
+
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write_scene()
+
+    def compare(self, models, *words):
+        done = self.run_program("render", self.scene, "--size", SIZE, "--compare", models, *words)
+        if "pictures are not made by" in done.stderr:
+            self.skipTest("a model is not there")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_sheet_of_two(self):
+        told = self.compare("spectral,single", "-o", "two.png")
+        self.assertRegex(told, r"(?m)^single - spectral: luminance [+-]\d+\.\d\d % in the mean, .*Delta E \d")
+        self.assertRegex(told, r"(?m)^wrote two\.png: 216x186, \d+\.\d s$")
+        width, height, rows = read_png(self.work / "two.png")
+        self.assertEqual((width, height), (2 * (96 + 8) + 8, 38 + 54 + 20 + 54 + 4 + 12 + 4))
+        # The first picture is the one that the model draws alone, and gives the exposure.
+        self.expect_success("render", self.scene, "--size", SIZE, "-o", "one.png")
+        alone = read_png(self.work / "one.png")[2]
+        first = [row[3 * 8:3 * (8 + 96)] for row in rows[38:38 + 54]]
+        self.assertEqual([bytes(row) for row in first], [bytes(row) for row in alone])
+        second = [row[3 * 112:3 * (112 + 96)] for row in rows[38:38 + 54]]
+        self.assertGreater(count_values(second), 10)
+        self.assertNotEqual(first, second)
+        # One scattering has less light than all: the map is blue, or nearly white where there is little more.
+        middle = rows[112 + 27]
+        red, blue = middle[3 * 160], middle[3 * 160 + 2]
+        self.assertLessEqual(red, blue + 5)
+
+    def test_radiances_of_two(self):
+        self.compare("spectral,single", "-o", "two.exr")
+        data = (self.work / "two.exr").read_bytes()
+        at = data.index(b"dataWindow\0box2i\0") + len(b"dataWindow\0box2i\0") + 4
+        self.assertEqual(struct.unpack("<4i", data[at:at + 16]), (0, 0, 2 * 96 - 1, 2 * 54 - 1))
+
+    def test_wrong_models(self):
+        for models, mention in [("spectral", "not enough"), ("spectral,spectral", "twice"), ("spectral,nishita", "nishita"),
+                                ("spectral,", "''"), (",", "''"), ("spectral,reference", "reference")]:
+            self.expect_failure(2, ["render", self.scene, "--compare", models], ["--compare", mention])
+        for more in [["--sky-model", "spectral"], ["--timings"]]:
+            self.expect_failure(2, ["render", self.scene, "--compare", "spectral,single"] + more,
+                                ["--compare", more[0]])
+
+
 class Failures(ProgramTest):
     def expect_wrong(self, scene, *mentions, output="a.png"):
         self.expect_failure(1, ["render", scene, "--size", SIZE, "-o", output], mentions)
