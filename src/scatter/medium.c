@@ -10,6 +10,9 @@
 
 #define PI 3.14159265358979323846
 
+// Midpoints of a profile's column, as many as the optics take (scatter/optics.h).
+enum { COLUMN_SAMPLES = 4096 };
+
 // Index of the last knot at or below x, which lies inside the table.
 static size_t find_knot(const double *knots, size_t count, double x)
 {
@@ -53,6 +56,23 @@ double profile_density(const struct profile *profile, double altitude_m)
         return interpolate(profile->altitude_m, profile->density, profile->count, altitude_m);
     }
     return 0;
+}
+
+double profile_column_m(const struct profile *profile, double height_m)
+{
+    double sum = 0;
+    for (int i = 0; i < COLUMN_SAMPLES; i++) {
+        sum += profile_density(profile, (i + 0.5) * height_m / COLUMN_SAMPLES);
+    }
+    return sum * height_m / COLUMN_SAMPLES;
+}
+
+trl_result profile_copy(const trl_context *ctx, const struct profile *profile, struct profile *out)
+{
+    *out = *profile;
+    return profile->kind == PROFILE_TABLE
+               ? profile_table_init(ctx, profile->altitude_m, profile->density, profile->count, out)
+               : TRL_OK;
 }
 
 double phase_value(const struct phase *phase, double cos_angle)
@@ -249,17 +269,22 @@ trl_result medium_check(const trl_context *ctx, const struct medium *medium, dou
     return result;
 }
 
+void constituent_finish(const trl_context *ctx, struct constituent *constituent)
+{
+    mem_free(ctx, constituent->name);
+    spectrum_finish(ctx, &constituent->scattering_per_m);
+    spectrum_finish(ctx, &constituent->absorption_per_m);
+    mem_free(ctx, constituent->profile.altitude_m);
+    mem_free(ctx, constituent->phase.angle_rad);
+    *constituent = (struct constituent){0};
+}
+
 void medium_finish(const trl_context *ctx, struct medium *medium)
 {
     spectrum_finish(ctx, &medium->ground_albedo);
     spectrum_finish(ctx, &medium->star_irradiance);
     for (size_t i = 0; i < medium->constituent_count; i++) {
-        struct constituent *c = &medium->constituents[i];
-        mem_free(ctx, c->name);
-        spectrum_finish(ctx, &c->scattering_per_m);
-        spectrum_finish(ctx, &c->absorption_per_m);
-        mem_free(ctx, c->profile.altitude_m);
-        mem_free(ctx, c->phase.angle_rad);
+        constituent_finish(ctx, &medium->constituents[i]);
     }
     *medium = (struct medium){0};
 }

@@ -32,6 +32,12 @@ struct profile {
 
 double profile_density(const struct profile *profile, double altitude_m);
 
+// Its integral from the ground to a height, in m: optical depth per coefficient.
+double profile_column_m(const struct profile *profile, double height_m);
+
+TRL_MUST_USE trl_result profile_copy(const trl_context *ctx, const struct profile *profile,
+                                     struct profile *out);
+
 enum phase_kind {
     PHASE_ISOTROPIC = 0,
     PHASE_RAYLEIGH,
@@ -88,7 +94,8 @@ TRL_MUST_USE trl_result phase_table_init(const trl_context *ctx, const double *a
 TRL_MUST_USE trl_result medium_check(const trl_context *ctx, const struct medium *medium,
                                      double nm);
 
-// Frees everything the medium owns; a zeroed medium is a no-op.
+// Free everything they own; a zeroed one is a no-op.
+void constituent_finish(const trl_context *ctx, struct constituent *constituent);
 void medium_finish(const trl_context *ctx, struct medium *medium);
 
 #endif // SCATTER_MEDIUM_H

@@ -66,7 +66,18 @@ static double radiate_blackbody(double temperature_K, double total_W_m2, double 
     return total_W_m2 * 15 / (PI * PI * PI * PI) * x * x * x * x / (nm * expm1(x));
 }
 
-double spectrum_at(const struct spectrum *spectrum, double nm)
+static double weigh(const struct spectrum_hat *hat, double nm)
+{
+    if (nm < hat->peak_nm && hat->from_nm > 0) {
+        return fmax(0, (nm - hat->from_nm) / (hat->peak_nm - hat->from_nm));
+    }
+    if (nm > hat->peak_nm && hat->to_nm > 0) {
+        return fmax(0, (hat->to_nm - nm) / (hat->to_nm - hat->peak_nm));
+    }
+    return 1;
+}
+
+static double evaluate(const struct spectrum *spectrum, double nm)
 {
     switch (spectrum->kind) {
     case SPECTRUM_CONSTANT:
@@ -84,6 +95,12 @@ double spectrum_at(const struct spectrum *spectrum, double nm)
                                  nm);
     }
     return 0;
+}
+
+double spectrum_at(const struct spectrum *spectrum, double nm)
+{
+    const double value = evaluate(spectrum, nm);
+    return spectrum->hat.peak_nm > 0 ? value * weigh(&spectrum->hat, nm) : value;
 }
 
 // Trapezoids from knot to knot are the exact integral of a piecewise linear function.
@@ -107,10 +124,11 @@ static double average_table(const struct spectrum *spectrum, double from_nm, dou
 
 double spectrum_mean(const struct spectrum *spectrum, double from_nm, double to_nm)
 {
-    if (spectrum->kind == SPECTRUM_CONSTANT) {
+    const bool has_hat = spectrum->hat.peak_nm > 0;
+    if (spectrum->kind == SPECTRUM_CONSTANT && !has_hat) {
         return spectrum->constant;
     }
-    if (spectrum->kind == SPECTRUM_TABLE) {
+    if (spectrum->kind == SPECTRUM_TABLE && !has_hat) {
         return average_table(spectrum, from_nm, to_nm);
     }
     double sum = 0;
@@ -134,6 +152,26 @@ trl_result spectrum_table_init(const trl_context *ctx, const double *nm, const d
     *out = (struct spectrum){.kind = SPECTRUM_TABLE,
                              .table = {.nm = block, .value = block + count, .count = count}};
     return TRL_OK;
+}
+
+trl_result spectrum_copy(const trl_context *ctx, const struct spectrum *spectrum,
+                         struct spectrum *out)
+{
+    *out = *spectrum;
+    if (spectrum->kind != SPECTRUM_TABLE) {
+        return TRL_OK;
+    }
+    const trl_result result = spectrum_table_init(ctx, spectrum->table.nm, spectrum->table.value,
+                                                  spectrum->table.count, out);
+    out->hat = spectrum->hat;
+    return result;
+}
+
+struct spectrum_hat spectrum_hat_of(const double *knot_nm, size_t count, size_t index)
+{
+    return (struct spectrum_hat){.from_nm = index > 0 ? knot_nm[index - 1] : 0,
+                                 .peak_nm = knot_nm[index],
+                                 .to_nm = index + 1 < count ? knot_nm[index + 1] : 0};
 }
 
 void spectrum_finish(const trl_context *ctx, struct spectrum *spectrum)
