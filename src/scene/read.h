@@ -18,6 +18,23 @@ TRL_MUST_USE trl_result scene_read_spectrum(const struct scene_node *node,
 TRL_MUST_USE trl_result scene_read_profile(const struct scene_node *node, struct profile *out);
 TRL_MUST_USE trl_result scene_read_phase(const struct scene_node *node, struct phase *out);
 
+// Phase functions at ascending wavelengths, linear between them; one alone holds at all.
+struct scene_phases {
+    size_t count;
+    double nm[MEDIUM_MAX_CONSTITUENTS];
+    struct phase phase[MEDIUM_MAX_CONSTITUENTS]; // owned
+};
+TRL_MUST_USE trl_result scene_read_phases(const struct scene_node *node, struct scene_phases *out);
+void scene_phases_finish(const trl_context *ctx, struct scene_phases *phases);
+
+// atmosphere.constituents; the medium's radii are known.
+TRL_MUST_USE trl_result scene_read_constituents(const struct scene_node *node, struct medium *out);
+
+// The coefficients and phase functions of spheres. `out` has its profile, `height_m` is that of the
+// air.
+TRL_MUST_USE trl_result scene_read_mie(const struct scene_node *node, double height_m,
+                                       struct constituent *out, struct scene_phases *phases);
+
 // sky_model of the root; it may be missing.
 TRL_MUST_USE trl_result scene_read_sky_model(const struct scene_node *root, struct trl_scene *out);
 

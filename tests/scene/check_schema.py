@@ -16,6 +16,11 @@ import jsonschema
 
 REMOVED = object()
 AIR = "atmosphere constituents 0 "
+AEROSOL = "atmosphere constituents 1"
+MIE = {"refractive_index": 1.5, "absorption_index": 0.01,
+       "size": {"log_normal": {"effective_radius_m": 1e-6, "effective_variance": 0.1}},
+       "optical_depth": {"at_nm": 550, "value": 0.1}}
+MIE_CONSTITUENT = {"profile": "uniform", "mie": MIE}
 
 # Where (keys and indices of the sample), what to put there, whether that is a scene.
 CHANGES = [
@@ -75,6 +80,27 @@ CHANGES = [
     (AIR + "phase", {"table": [[0, 2], [180, 1]]}, True),
     (AIR + "phase", {"table": [[0, 2], [181, 1]]}, False),
     (AIR + "phase", {"table": [[0, -2]]}, False), (AIR + "phase", {"table": "x"}, False),
+    (AIR + "phase", {"by_wavelength": [[450, "rayleigh"], [550, "isotropic"]]}, True),
+    (AIR + "phase", {"by_wavelength": [[450, {"henyey_greenstein": {"g": 0.5}}]], "comment": "x"}, True),
+    (AIR + "phase", {"by_wavelength": []}, False), (AIR + "phase", {"by_wavelength": {}}, False),
+    (AIR + "phase", {"by_wavelength": [[450]]}, False), (AIR + "phase", {"by_wavelength": [450]}, False),
+    (AIR + "phase", {"by_wavelength": [[0, "rayleigh"]]}, False),
+    (AIR + "phase", {"by_wavelength": [[450, {"by_wavelength": []}]]}, False),
+    (AIR + "phase", {"by_wavelength": [[450, "rayleigh"]], "table": [[0, 1]]}, False),
+    (AIR + "mie", MIE, False), (AEROSOL, MIE_CONSTITUENT, True),
+    (AEROSOL + " mie number_density_per_m3", 1e8, False),
+    (AEROSOL + " mie optical_depth", REMOVED, False), (AEROSOL + " mie optical_depth at_nm", 100, False),
+    (AEROSOL + " mie optical_depth value", -1, False), (AEROSOL + " mie size", {}, False),
+    (AEROSOL + " mie size", {"gamma": {"effective_radius_m": 1e-6, "effective_variance": 0.1}}, True),
+    (AEROSOL + " mie size", {"gamma": {"effective_radius_m": 1e-6, "effective_variance": 0.5}}, False),
+    (AEROSOL + " mie size log_normal effective_variance", 0, False),
+    (AEROSOL + " mie size log_normal effective_radius_m", REMOVED, False),
+    (AEROSOL + " mie refractive_index", [[400, 1.5], [700, 1.4]], True),
+    (AEROSOL + " mie refractive_index", REMOVED, False), (AEROSOL + " mie refractive_index", 0, False),
+    (AEROSOL + " mie absorption_index", REMOVED, True), (AEROSOL + " mie absorption_index", -1, False),
+    (AEROSOL + " mie phase_at_nm", [], False), (AEROSOL + " mie phase_at_nm", [450, 550], True),
+    (AEROSOL + " mie phase_at_nm", 450, False), (AEROSOL + " mie radius", 1, False),
+    (AEROSOL + " profile", REMOVED, False), (AEROSOL + " phase", "rayleigh", False),
     ("surface", REMOVED, True), ("surface", {}, False), ("surface layers", [], True),
     ("surface layers 0 elevation", "/vsizip/x", False), ("surface layers 0 elevation", 5, False),
     ("surface layers 0 scale", 2, True), ("surface layers 0 scale", "2", False),
@@ -122,7 +148,7 @@ SAMPLE = {
     "planet": {"radius_m": 6371000, "ground_albedo": 0.1},
     "atmosphere": {"height_m": 100000, "constituents": [{
         "name": "air", "scattering_per_m": 1e-5, "absorption_per_m": 0,
-        "profile": {"exponential": {"scale_height_m": 8000}}, "phase": "rayleigh"}]},
+        "profile": {"exponential": {"scale_height_m": 8000}}, "phase": "rayleigh"}, MIE_CONSTITUENT]},
     "surface": {"layers": [{"elevation": "a.tif"}]},
     "bodies": [{"name": "Moon", "radius_m": 1737400, "distance_m": 384400000,
                 "geometric_albedo": 0.12}],

@@ -8,14 +8,26 @@
 #include <string.h>
 #include <terrella/scene.h>
 
+// What its only constituent says beside the name.
+#define SAMPLE_AIR                                                                                 \
+    "\"scattering_per_m\": 1e-5, \"absorption_per_m\": 0,\n"                                       \
+    "      \"profile\": { \"exponential\": { \"scale_height_m\": 8000 } },\n"                      \
+    "      \"phase\": \"rayleigh\""
+
+// Another one, of spheres.
+#define SAMPLE_SPHERES                                                                             \
+    "\"mie\": { \"refractive_index\": 1.5, \"absorption_index\": [[450, 0.01], [650, 0.001]],\n"   \
+    "  \"size\": { \"log_normal\": { \"effective_radius_m\": 1e-6, \"effective_variance\": 0.2 } " \
+    "},\n"                                                                                         \
+    "  \"optical_depth\": { \"at_nm\": 600, \"value\": 0.5 } },\n"                                 \
+    "  \"profile\": { \"table\": [[0, 1], [100000, 0]] }"
+
 static const char sample_scene[] =
     "{ \"terrella\": 1, \"name\": \"Test\",\n"
     "  \"star\": { \"spectral_irradiance\": 1.5, \"angular_radius_deg\": 0.25 },\n"
     "  \"planet\": { \"radius_m\": 6371000, \"ground_albedo\": 0.1 },\n"
     "  \"atmosphere\": { \"height_m\": 100000, \"constituents\": [\n"
-    "    { \"name\": \"air\", \"scattering_per_m\": 1e-5, \"absorption_per_m\": 0,\n"
-    "      \"profile\": { \"exponential\": { \"scale_height_m\": 8000 } },\n"
-    "      \"phase\": \"rayleigh\" } ] },\n"
+    "    { \"name\": \"air\", " SAMPLE_AIR " } ] },\n"
     "  \"surface\": { \"layers\": [ { \"elevation\": \"a.tif\" } ] },\n"
     "  \"views\": { \"one\": {\n"
     "    \"camera\": { \"latitude_deg\": 10, \"longitude_deg\": 20, \"altitude_m\": 3 },\n"

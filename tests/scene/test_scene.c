@@ -195,6 +195,79 @@ static void every_phase_form_is_read(void **state)
     }
 }
 
+// Coefficient times phase function, summed over the constituents of the first name.
+static double source_at(const struct medium *medium, double nm, double cosine)
+{
+    double sum = 0;
+    for (size_t i = 0; i < medium->constituent_count; i++) {
+        const struct constituent *c = &medium->constituents[i];
+        sum += spectrum_at(&c->scattering_per_m, nm) * phase_value(&c->phase, cosine);
+    }
+    return sum;
+}
+
+static void phase_functions_by_wavelength_are_linear_between_and_constant_outside(void **state)
+{
+    trl_scene *s = parse_with(
+        *state, SAMPLE_AIR,
+        "\"scattering_per_m\": "
+        "[[400, 1e-5], [700, 4e-5]], \"absorption_per_m\": 1e-6,"
+        "\"profile\": {\"table\": [[0, 1], [9, 0]]}, \"phase\": {\"by_wavelength\": [[450, "
+        "\"isotropic\"], [550, {\"henyey_greenstein\": {\"g\": 0.5}}], [600, "
+        "\"rayleigh\"]]}");
+    const struct medium *m = &s->medium;
+    assert_int_equal(m->constituent_count, 3);
+    assert_string_equal(m->constituents[1].name, "air, 550 nm");
+    const struct phase isotropic = {.kind = PHASE_ISOTROPIC}, rayleigh = {.kind = PHASE_RAYLEIGH};
+    const struct phase peaked = {.kind = PHASE_HENYEY_GREENSTEIN, .g = 0.5};
+    for (double mu = -1; mu <= 1; mu += 0.5) {
+        const double a = phase_value(&isotropic, mu), b = phase_value(&peaked, mu);
+        const double c = phase_value(&rayleigh, mu);
+        assert_near(source_at(m, 380, mu), 1e-5 * a);
+        assert_near(source_at(m, 450, mu), 1.5e-5 * a);
+        assert_near(source_at(m, 475, mu), 1.75e-5 * (0.75 * a + 0.25 * b));
+        assert_near(source_at(m, 550, mu), 2.5e-5 * b);
+        assert_near(source_at(m, 590, mu), 2.9e-5 * (0.2 * b + 0.8 * c));
+        assert_near(source_at(m, 800, mu), 4e-5 * c);
+    }
+    for (double nm = 370; nm < 830; nm += 13) {
+        double absorption = 0;
+        for (size_t i = 0; i < 3; i++) {
+            absorption += spectrum_at(&m->constituents[i].absorption_per_m, nm);
+            assert_near(profile_density(&m->constituents[i].profile, 3), 2.0 / 3);
+        }
+        assert_near(absorption, 1e-6);
+    }
+    trl_scene_destroy(&s);
+}
+
+static void spheres_have_the_optical_depth_that_is_asked_for(void **state)
+{
+    trl_scene *s = parse_with(*state, SAMPLE_AIR, SAMPLE_SPHERES);
+    const struct medium *m = &s->medium;
+    assert_int_equal(m->constituent_count, 3);
+    double depth = 0, scattering[2] = {0}, absorption[2] = {0};
+    for (size_t i = 0; i < 3; i++) {
+        const struct constituent *c = &m->constituents[i];
+        depth += profile_column_m(&c->profile, 100000) *
+                 (spectrum_at(&c->scattering_per_m, 600) + spectrum_at(&c->absorption_per_m, 600));
+        scattering[0] += spectrum_at(&c->scattering_per_m, 450);
+        absorption[0] += spectrum_at(&c->absorption_per_m, 450);
+        scattering[1] += spectrum_at(&c->scattering_per_m, 650);
+        absorption[1] += spectrum_at(&c->absorption_per_m, 650);
+        double moments[2];
+        phase_moments(&c->phase, 1, moments);
+        assert_true(fabs(moments[0] - 1) < 1e-13 && moments[1] > 0.6 && moments[1] < 0.85);
+    }
+    // Linear between wavelengths 20 nm apart; extinction is nearly flat.
+    assert_true(fabs(depth - 0.5) < 1e-3);
+    // Ten times the absorption index: about that much more absorption, less what is saturated.
+    const double ratio = absorption[0] / absorption[1];
+    assert_true(ratio > 6 && ratio < 12);
+    assert_true(scattering[0] > 0 && scattering[0] < scattering[1]);
+    trl_scene_destroy(&s);
+}
+
 static void comments_are_allowed_in_any_object(void **state)
 {
     trl_scene *s =
@@ -357,6 +430,8 @@ int main(void)
         cmocka_unit_test(every_spectrum_form_is_read),
         cmocka_unit_test(every_profile_form_is_read),
         cmocka_unit_test(every_phase_form_is_read),
+        cmocka_unit_test(phase_functions_by_wavelength_are_linear_between_and_constant_outside),
+        cmocka_unit_test(spheres_have_the_optical_depth_that_is_asked_for),
         cmocka_unit_test(comments_are_allowed_in_any_object),
         cmocka_unit_test(detail_is_read_and_has_defaults),
         cmocka_unit_test(layers_are_read),

@@ -185,6 +185,82 @@ static void numbers_out_of_range_say_what_is_allowed(void **state)
     ASSERT_ERRORS(state, cases);
 }
 
+// One thing of the sample's spheres replaced.
+static void assert_spheres_error(struct fixture *f, const struct error_case *error)
+{
+    char spheres[1024] = SAMPLE_SPHERES;
+    char *at = strstr(spheres, error->from);
+    assert_non_null(at);
+    char rest[1024];
+    strcpy(rest, at + strlen(error->from));
+    strcpy(at, error->to);
+    strcat(spheres, rest);
+    assert_errors(f, &(struct error_case){SAMPLE_AIR, spheres, error->message}, 1);
+}
+
+static void spheres_that_cannot_be_are_named(void **state)
+{
+    const struct error_case cases[] = {
+        {"1.5", "0", "t.json:5:51: atmosphere.constituents[0].mie.refractive_index: is 0; must be"},
+        {"0.001", "-1",
+         "t.json:5:96: atmosphere.constituents[0].mie.absorption_index[1][1]: is -1"},
+        {"0.2 }", "0 }",
+         "t.json:6:79: atmosphere.constituents[0].mie.size.log_normal.effective_variance: is 0"},
+        {"1e-6", "1e-4",
+         "t.json:5:29: atmosphere.constituents[0].mie: the largest spheres measure "},
+        {"log_normal", "gama",
+         "t.json:6:13: atmosphere.constituents[0].mie.size.gama: unknown key; the nearest known "
+         "one is \"gamma\""},
+        {"0.5 } }", "0.5 }, \"number_density_per_m3\": 1 }",
+         "t.json:5:29: atmosphere.constituents[0].mie: has 2 of the keys optical_depth, "},
+        {"[[0, 1], [100000, 0]]", "[[0, 0]]",
+         "t.json:5:29: atmosphere.constituents[0].mie: no number of these spheres has an optical "
+         "depth"},
+        {"\"optical_depth\": { \"at_nm\": 600, \"value\": 0.5 }", "\"number_density_per_m3\": 1e16",
+         "t.json:5:29: atmosphere.constituents[0].mie: extinction is "},
+        {"\"size\"", "\"phase_at_nm\": [500, 450], \"size\"",
+         "t.json:6:24: atmosphere.constituents[0].mie.phase_at_nm[1]: is 450; must be a number > "
+         "500"},
+        {"\"size\"", "\"phase_at_nm\": [], \"size\"",
+         "t.json:6:18: atmosphere.constituents[0].mie.phase_at_nm: is empty"},
+        {"\"profile\"", "\"phase\": \"rayleigh\", \"profile\"",
+         "t.json:8:3: atmosphere.constituents[0].phase: unknown key; the nearest known one is "},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        assert_spheres_error(*state, &cases[i]);
+    }
+}
+
+static void phase_functions_by_wavelength_that_cannot_be_are_named(void **state)
+{
+    const struct error_case cases[] = {
+        {"\"rayleigh\"", "{\"by_wavelength\": 4}",
+         "t.json:7:34: atmosphere.constituents[0].phase.by_wavelength: is a number; must be a "
+         "list"},
+        {"\"rayleigh\"", "{\"by_wavelength\": []}",
+         "t.json:7:34: atmosphere.constituents[0].phase.by_wavelength: is empty; must have a pair"},
+        {"\"rayleigh\"", "{\"by_wavelength\": [[450, \"rayleigh\"], [450, \"rayleigh\"]]}",
+         "t.json:7:55: atmosphere.constituents[0].phase.by_wavelength[1][0]: is 450; must be a "
+         "number > 450"},
+        {"\"rayleigh\"", "{\"by_wavelength\": [[450, {\"by_wavelength\": []}]]}",
+         "t.json:7:42: atmosphere.constituents[0].phase.by_wavelength[0][1].by_wavelength: unknown "
+         "key"},
+        {"\"rayleigh\"", "{\"by_wavelngth\": []}",
+         "t.json:7:17: atmosphere.constituents[0].phase.by_wavelngth: unknown key; the nearest "
+         "known one is \"by_wavelength\""},
+        {"\"rayleigh\" }",
+         "\"rayleigh\" }, { \"scattering_per_m\": 1, \"profile\": \"uniform\", \"phase\": "
+         "{\"by_wavelength\": [[1, \"rayleigh\"], [2, \"rayleigh\"], [3, \"rayleigh\"], [4, "
+         "\"rayleigh\"], [5, \"rayleigh\"], [6, \"rayleigh\"], [7, \"rayleigh\"], [8, "
+         "\"rayleigh\"], "
+         "[9, \"rayleigh\"], [10, \"rayleigh\"], [11, \"rayleigh\"], [12, \"rayleigh\"], [13, "
+         "\"rayleigh\"], [14, \"rayleigh\"], [15, \"rayleigh\"], [16, \"rayleigh\"]]}}",
+         "t.json:7:30: atmosphere.constituents[1]: counts as 16 constituents, one for each phase "
+         "function; there is room for 15 more of 16"},
+    };
+    ASSERT_ERRORS(state, cases);
+}
+
 static void files_that_could_be_fetched_are_refused(void **state)
 {
     const struct error_case cases[] = {
@@ -299,6 +375,8 @@ int main(void)
         cmocka_unit_test(unknown_keys_are_named_with_the_nearest),
         cmocka_unit_test(missing_and_wrongly_typed_values_are_named),
         cmocka_unit_test(numbers_out_of_range_say_what_is_allowed),
+        cmocka_unit_test(spheres_that_cannot_be_are_named),
+        cmocka_unit_test(phase_functions_by_wavelength_that_cannot_be_are_named),
         cmocka_unit_test(files_that_could_be_fetched_are_refused),
         cmocka_unit_test(faults_of_bodies_are_told),
         cmocka_unit_test(every_truncation_is_one_error),

@@ -40,17 +40,15 @@ static void meter_release(void *user, void *block)
     free(block);
 }
 
-static void scene_survives_every_failed_allocation(void **state)
+static void assert_survives(const char *from, const char *to)
 {
-    (void)state;
     struct meter meter = {.left = -1};
     trl_context_desc desc = trl_context_desc_default();
     desc.allocator = (trl_allocator){meter_allocate, meter_reallocate, meter_release, &meter};
     trl_context *ctx = NULL;
     assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
     const long before = meter.live;
-    char *text = sample_replace("1e-5, \"absorption_per_m\": 0",
-                                "[[500, 1e-5], [600, 2e-5]], \"absorption_per_m\": [[500, 0]]");
+    char *text = sample_replace(from, to);
     assert_non_null(text);
     trl_result result = TRL_ERROR_MEMORY;
     long n = 0;
@@ -70,10 +68,24 @@ static void scene_survives_every_failed_allocation(void **state)
     assert_int_equal(meter.live, 0);
 }
 
+static void scene_survives_every_failed_allocation(void **state)
+{
+    (void)state;
+    assert_survives("1e-5, \"absorption_per_m\": 0",
+                    "[[500, 1e-5], [600, 2e-5]], \"absorption_per_m\": [[500, 0]]");
+}
+
+static void spheres_survive_every_failed_allocation(void **state)
+{
+    (void)state;
+    assert_survives(SAMPLE_AIR, SAMPLE_SPHERES);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_survives_every_failed_allocation),
+        cmocka_unit_test(spheres_survive_every_failed_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
