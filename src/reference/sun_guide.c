@@ -5,6 +5,7 @@
 #include <math.h>
 
 enum { ALTITUDES = 64, COSINES = 128 };
+static const double negligible_depth = 40;
 
 // Squares crowd the altitudes toward the ground and the cosines toward the shadow's edge.
 static double altitude_of(const struct sun_guide *guide, int i)
@@ -19,10 +20,29 @@ static double cosine_of(const struct sun_guide *guide, int i)
     return guide->lowest_mu + (1 - guide->lowest_mu) * x * x;
 }
 
-trl_result sun_guide_init(const trl_context *ctx, const struct reference_air *air,
-                          struct sun_guide *guide)
+static double mean_transmittance(const struct reference_air *air,
+                                 const struct reference_optics *optics,
+                                 const struct reference_ray *ray)
 {
-    const double ground = air->medium->ground_radius_m, top = air->medium->top_radius_m;
+    lanes4 depth = {0};
+    struct reference_walk walk = reference_walk_begin(air, ray);
+    for (struct reference_piece piece; reference_walk_next(&walk, &piece);) {
+        struct reference_columns columns;
+        reference_air_columns(air, ray, &piece, piece.end_m, &columns);
+        depth += reference_optics_extinction(optics, &columns);
+        if (lanes4_min(&depth, optics->count) > negligible_depth) {
+            return 0;
+        }
+    }
+    const lanes4 exponent = -depth;
+    const lanes4 passed = lanes4_exp(&exponent, optics->count);
+    return lanes4_sum(&passed) / optics->count;
+}
+
+trl_result sun_guide_init(const trl_context *ctx, const struct reference_air *air,
+                          const struct reference_optics *optics, struct sun_guide *guide)
+{
+    const double ground = air->bottom_radius_m, top = air->top_radius_m;
     *guide = (struct sun_guide){.lowest_mu = -sqrt((top - ground) * (top + ground)) / top,
                                 .thickness_m = top - ground};
     guide->transmittance = mem_alloc(ctx, ALTITUDES * COSINES, sizeof(double));
@@ -34,7 +54,7 @@ trl_result sun_guide_init(const trl_context *ctx, const struct reference_air *ai
         for (int k = 0; k < COSINES; ++k) {
             const struct reference_ray ray = reference_air_ray(air, radius, cosine_of(guide, k));
             guide->transmittance[i * COSINES + k] =
-                ray.hits_ground ? 0 : exp(-reference_air_optical_depth(air, &ray));
+                ray.hits_bottom ? 0 : mean_transmittance(air, optics, &ray);
         }
     }
     return TRL_OK;

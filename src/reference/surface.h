@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef REFERENCE_SURFACE_H
+#define REFERENCE_SURFACE_H
+// The ground as paths meet it: a height over each direction from the planet's centre, lit as
+// Lambert says. Whoever has the heights and colours says what they are; this module only asks.
+
+#include "base/vec3.h"
+#include "reference/lanes.h"
+
+#include <stdbool.h>
+
+// What is seen at a place of the ground. Colours are linear sRGB, in the star's own light.
+struct reference_look {
+    struct vec3 normal; // unit
+    bool has_colour;    // else its albedo is the medium's
+    double albedo_rgb[3];
+    double glow_rgb[3]; // light of its own: 1 is white of `white_cd_m2`
+};
+
+// Functions may be called from many threads. Directions are from the planet's centre, of any
+// length but 0.
+struct reference_surface {
+    const void *user;
+    double lowest_m, highest_m; // altitudes between which the ground lies
+    double step_m;              // along the ground; what is smaller is not looked for
+    double white_cd_m2;         // luminance of the ground's own light where that is white
+    // Altitude above the medium's ground.
+    double (*altitude_m)(const void *user, struct vec3 direction);
+    // An altitude that no ground within `reach_m` (along the ground) rises above.
+    double (*ceiling_m)(const void *user, struct vec3 direction, double reach_m);
+    void (*look)(const void *user, struct vec3 direction, struct reference_look *look);
+};
+
+// A straight way: from a point, a unit direction, no farther than `length_m`.
+struct reference_way {
+    struct vec3 from_m, direction;
+    double length_m;
+};
+
+// Distance along the way to the ground of a surface over a sphere of `radius_m`, or a negative
+// number if there is none. A way that begins below the ground meets it at once. Ground that
+// rises above the way by less than it does within `step_m` may be missed.
+double reference_surface_meet(const struct reference_surface *surface, double radius_m,
+                              const struct reference_way *way);
+
+#endif // REFERENCE_SURFACE_H

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "reference/tracer.h"
+
+#include <math.h>
+#include <omp.h>
+
+// Weight below which a path survives every second event only.
+static const double roulette_weight = 0.02;
+// After so many events a path ends with a small chance at each, so that no medium can trap it for
+// ever. Far more than a path through a cloud of optical depth 1000 has.
+enum { LONG_PATH = 200000 };
+static const double long_path_survival = 0.9999;
+
+// A phase function of this height, in sr^-1, is sharp: 1 has sharpness 0, this 1, by logarithms.
+static const double sharp_phase = 100;
+
+struct vec3 reference_turn(struct vec3 axis, double cosine, double azimuth)
+{
+    const struct vec3 other = fabs(axis.z) < 0.9 ? (struct vec3){0, 0, 1} : (struct vec3){1, 0, 0};
+    const struct vec3 u = vec3_normalize(vec3_cross(other, axis));
+    const struct vec3 v = vec3_cross(axis, u);
+    const double sine = sqrt(fmax(0, (1 - cosine) * (1 + cosine)));
+    const struct vec3 across =
+        vec3_add(vec3_scale(u, sine * cos(azimuth)), vec3_scale(v, sine * sin(azimuth)));
+    return vec3_normalize(vec3_add(vec3_scale(axis, cosine), across));
+}
+
+double reference_path_radius(const struct reference_tracer *tracer,
+                             const struct reference_path *path)
+{
+    const struct reference_air *air = &tracer->world->air;
+    return fmin(fmax(vec3_length(path->position), air->bottom_radius_m), air->top_radius_m);
+}
+
+bool reference_enter(const struct reference_world *world, struct reference_path *path)
+{
+    const double top = world->air.top_radius_m;
+    const double along = vec3_dot(path->position, path->direction);
+    const double radius = vec3_length(path->position);
+    if (radius <= top) {
+        return true;
+    }
+    const double perigee = vec3_length(vec3_cross(path->position, path->direction));
+    if (along >= 0 || perigee >= top) {
+        return false;
+    }
+    const double distance = -along - sqrt((top - perigee) * (top + perigee));
+    path->position = vec3_add(path->position, vec3_scale(path->direction, distance));
+    return true;
+}
+
+static bool survives(const struct reference_tracer *tracer, struct reference_path *path)
+{
+    const double mean = lanes4_sum(&path->weight) / tracer->optics.count;
+    double chance = mean < roulette_weight ? 0.5 : 1;
+    chance *= path->order > LONG_PATH ? long_path_survival : 1;
+    path->weight /= chance;
+    return chance == 1 || reference_next(path) < chance;
+}
+
+void reference_trace(const struct reference_tracer *tracer, struct reference_scratch *scratch,
+                     struct reference_path *path)
+{
+    path->weight = lanes4_set(0);
+    for (int k = 0; k < tracer->optics.count; ++k) {
+        path->weight[k] = 1;
+    }
+    path->radiance = lanes4_set(0);
+    const bool shares_disc = reference_shares_disc(tracer, &path->star);
+    for (path->order = 1; reference_advance(tracer, scratch, path); ++path->order) {
+        reference_add_starlight(tracer, path);
+        const bool is_last = path->order == tracer->max_order;
+        // Of the last event, too, a direction is drawn where it may find the disc.
+        if ((is_last && !shares_disc) || !survives(tracer, path)) {
+            break;
+        }
+        reference_redirect(tracer, path);
+        if (is_last) {
+            break;
+        }
+    }
+}
+
+static double highest_value(const struct phase *phase)
+{
+    double highest = fmax(phase_value(phase, 1), phase_value(phase, -1));
+    for (size_t i = 0; phase->kind == PHASE_TABLE && i < phase->count; ++i) {
+        highest = fmax(highest, phase->value[i]);
+    }
+    return highest;
+}
+
+void reference_world_finish(const trl_context *ctx, struct reference_world *world)
+{
+    for (size_t i = 0; i < MEDIUM_MAX_CONSTITUENTS; ++i) {
+        phase_sampler_finish(ctx, &world->samplers[i]);
+    }
+    reference_air_finish(ctx, &world->air);
+}
+
+trl_result reference_world_init(const trl_context *ctx, const struct reference_scene *scene,
+                                const struct reference_wavelengths *wavelengths,
+                                struct reference_world *world)
+{
+    *world = (struct reference_world){.scene = *scene};
+    struct reference_extent extent = {0, 0};
+    if (scene->surface) {
+        extent.lowest_m = fmin(0, scene->surface->lowest_m);
+        extent.highest_m = fmax(0, scene->surface->highest_m);
+    }
+    const struct medium *medium = scene->medium;
+    trl_result result = reference_air_init(ctx, medium, wavelengths, &extent, &world->air);
+    for (size_t i = 0; i < medium->constituent_count && result == TRL_OK; ++i) {
+        const struct phase *phase = &medium->constituents[i].phase;
+        result = phase_sampler_init(ctx, phase, &world->samplers[i]);
+        const double highest = highest_value(phase);
+        world->highest_phase = fmax(world->highest_phase, highest);
+        world->sharpness[i] = fmin(fmax(log(highest) / log(sharp_phase), 0), 1);
+    }
+    if (result != TRL_OK) {
+        reference_world_finish(ctx, world);
+    }
+    return result;
+}
+
+void reference_tracer_finish(const trl_context *ctx, struct reference_tracer *tracer)
+{
+    sun_guide_finish(ctx, &tracer->guide);
+}
+
+trl_result reference_tracer_init(const trl_context *ctx, const struct reference_world *world,
+                                 const double *nm, int count, struct reference_tracer *tracer)
+{
+    *tracer = (struct reference_tracer){
+        .world = world, .optics = reference_optics_at(world->scene.medium, nm, count)};
+    return sun_guide_init(ctx, &world->air, &tracer->optics, &tracer->guide);
+}
+
+size_t reference_max_stretches(const struct reference_air *air)
+{
+    // Each shell twice, the perigee's shell in two halves; and the splits.
+    const double top = air->top_radius_m, bottom = air->bottom_radius_m;
+    const double longest_m = 2 * sqrt((top - bottom) * (top + bottom));
+    return 2 * air->shell_count + 4 + (size_t)ceil(longest_m / air->split_length_m);
+}
+
+void reference_scratches_finish(const trl_context *ctx, struct reference_scratches *scratches)
+{
+    for (size_t i = 0; i < scratches->count; ++i) {
+        mem_free(ctx, scratches->of[i].stretches);
+    }
+    mem_free(ctx, scratches->of);
+    *scratches = (struct reference_scratches){0};
+}
+
+trl_result reference_scratches_init(const trl_context *ctx, const struct reference_air *air,
+                                    struct reference_scratches *scratches)
+{
+    const size_t count = (size_t)omp_get_max_threads();
+    *scratches =
+        (struct reference_scratches){.of = mem_alloc(ctx, count, sizeof(struct reference_scratch))};
+    if (!scratches->of) {
+        return TRL_ERROR_MEMORY;
+    }
+    scratches->count = count;
+    for (size_t i = 0; i < count; ++i) {
+        scratches->of[i].stretches =
+            mem_alloc(ctx, reference_max_stretches(air) + 1, sizeof(struct reference_stretch));
+        if (!scratches->of[i].stretches) {
+            reference_scratches_finish(ctx, scratches);
+            return TRL_ERROR_MEMORY;
+        }
+    }
+    return TRL_OK;
+}
