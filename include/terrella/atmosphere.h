@@ -21,7 +21,8 @@ typedef struct trl_sky_desc {
     uint32_t canary;     ///< set by trl_sky_desc_default(); never touch
     trl_sky_model model; ///< default TRL_SKY_SPECTRAL
     uint32_t max_orders; ///< scatterings and reflections by the ground that light may have, at most
-                         ///< TRL_SKY_MAX_ORDERS; 0 (default): all
+                         ///< TRL_SKY_MAX_ORDERS; 0 (default): all that the model has, which is 1
+                         ///< for TRL_SKY_SINGLE
     uint64_t paths;      ///< TRL_SKY_REFERENCE: for each query, [2, 1e12]; default 10000
     uint64_t seed;       ///< TRL_SKY_REFERENCE: same seed, same numbers, on any number of threads
 } trl_sky_desc;

@@ -63,7 +63,8 @@ static size_t list_wavelengths(const trl_sky_query *queries, size_t count, doubl
 
 // Answers the queries at the solution's wavelengths.
 static trl_result answer_batch(const trl_context *ctx, const struct solution *solution,
-                               const trl_sky_query *queries, size_t count, double *radiance)
+                               const trl_sky_desc *desc, const trl_sky_query *queries, size_t count,
+                               double *radiance)
 {
     const struct optics *optics = solution->optics;
     struct query *query = NULL;
@@ -78,7 +79,11 @@ static trl_result answer_batch(const trl_context *ctx, const struct solution *so
                 query_view_make(optics->ground_radius_m + q->altitude_m, q->sun_zenith_rad,
                                 q->view_zenith_rad, q->azimuth_rad);
             lanes all;
-            query_radiance(query, &view, &all);
+            if (desc->model == TRL_SKY_SINGLE) {
+                query_plane_radiance(query, &view, &all);
+            } else {
+                query_radiance(query, &view, &all);
+            }
             radiance[n] =
                 (double)all[k] * spectrum_at(&optics->medium->star_irradiance, q->wavelength_nm);
         }
@@ -105,11 +110,11 @@ static trl_result solve_and_answer(const trl_context *ctx, const struct medium *
         }
         optics_init(optics, medium, nm + first, left < LANES ? (int)left : LANES);
         struct solver_settings settings = solver_settings_choose(optics, SOLVER_PRECISE);
-        settings.orders = (int)desc->max_orders;
+        settings.orders = desc->model == TRL_SKY_SINGLE ? 1 : (int)desc->max_orders;
         struct solution solution;
         result = solution_init(ctx, optics, &settings, &solution);
         if (result == TRL_OK) {
-            result = answer_batch(ctx, &solution, queries, count, radiance);
+            result = answer_batch(ctx, &solution, desc, queries, count, radiance);
             solution_finish(ctx, &solution);
         }
     }
@@ -147,8 +152,8 @@ static trl_result answer(const trl_context *ctx, const struct medium *medium,
     }
     switch (desc->model) {
     case TRL_SKY_SPECTRAL:
-        return solve_and_answer(ctx, medium, desc, queries, count, radiance);
     case TRL_SKY_SINGLE:
+        return solve_and_answer(ctx, medium, desc, queries, count, radiance);
     case TRL_SKY_RAYLEIGH:
         break;
     case TRL_SKY_REFERENCE:
@@ -162,6 +167,11 @@ static trl_result check_desc(const trl_context *ctx, const trl_sky_desc *desc)
 {
     TRL_REQUIRE(ctx, desc->canary == SKY_CANARY);
     TRL_REQUIRE(ctx, desc->max_orders <= TRL_SKY_MAX_ORDERS);
+    if (desc->model == TRL_SKY_SINGLE && desc->max_orders > 1) {
+        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                        "the model \"single\" has one order of scattering, not %u",
+                        desc->max_orders);
+    }
     TRL_REQUIRE(ctx, desc->paths >= 2 && desc->paths <= MAX_PATHS);
     return TRL_OK;
 }

@@ -121,22 +121,27 @@ static double disc_phase(const struct phase *phase, double nu, double disc_rad)
     return sum / (RINGS * POINTS);
 }
 
-void query_radiance(struct query *query, const struct query_view *view, lanes *radiance)
+// Single scattering of the view: the light comes as if the star stood at the angle of cosine `nu`
+// from the ray, the phase functions take the view's own angle. Leaves the ray in the query.
+static void add_single(struct query *query, const struct query_view *view, double nu,
+                       lanes *radiance)
 {
     const struct solution *s = query->solution;
     const struct optics *optics = s->optics;
     const double depth = optics_largest_depth(optics);
+    struct query_view lit = *view;
+    lit.nu = nu;
     struct ray_desc desc = {.radius_m = view->radius_m,
                             .mu = view->view_mu,
                             .nodes_per_shell =
                                 NODES_PER_SHELL + MORE_NODES_PER_DEPTH * fmin(depth, MAX_DEPTH),
                             .end_m = INFINITY};
-    find_shadow_edges(query, view, &desc);
+    find_shadow_edges(query, &lit, &desc);
     ray_init(&query->ray, optics, s->rules, &desc);
 
     const float sun_mu = (float)view->sun_mu;
-    const float nu = (float)view->nu;
-    const struct transport_family family = {1, &sun_mu, &nu};
+    const float light_nu = (float)nu;
+    const struct transport_family family = {1, &sun_mu, &light_nu};
     struct transport_channels channels;
     float phase[MEDIUM_MAX_CONSTITUENTS];
     for (int i = 0; i < optics->constituent_count; i++) {
@@ -145,11 +150,58 @@ void query_radiance(struct query *query, const struct query_view *view, lanes *r
             (float)disc_phase(&optics->medium->constituents[i].phase, view->nu, s->sun.disc_rad);
         channels.phase[i] = &phase[i];
     }
-    const unsigned state = lanes_flush_denormals();
-    *radiance = lanes_set(0);
     lanes *const out[1] = {radiance};
     transport_add_single(&s->sun, &query->ray, &family, &channels, out, query->scratch);
+}
+
+void query_radiance(struct query *query, const struct query_view *view, lanes *radiance)
+{
+    const struct solution *s = query->solution;
+    const float sun_mu = (float)view->sun_mu;
+    const float nu = (float)view->nu;
+    const struct transport_family family = {1, &sun_mu, &nu};
+    const unsigned state = lanes_flush_denormals();
+    *radiance = lanes_set(0);
+    add_single(query, view, view->nu, radiance);
     transport_add_multiple(&s->moments, &query->ray, &family, radiance, query->scratch);
     transport_add_ground(&s->sun, &s->moments, &query->ray, &family, radiance);
+    lanes_restore(state);
+}
+
+// From outside the observer moves along the ray to where it enters the air; false: it never does.
+static bool move_to_air(const struct optics *optics, struct query_view *view)
+{
+    double begin_m;
+    double end_m;
+    bool hits_ground;
+    if (!ray_clip(optics, view->radius_m, view->view_mu, &begin_m, &end_m, &hits_ground)) {
+        return false;
+    }
+    if (view->radius_m > optics->top_radius_m) {
+        const double top_m = optics->top_radius_m;
+        view->view_mu = fmax(-1, (view->radius_m * view->view_mu + begin_m) / top_m);
+        view->sun_mu =
+            fmin(fmax((view->radius_m * view->sun_mu + begin_m * view->nu) / top_m, -1), 1);
+        view->radius_m = top_m;
+    }
+    return true;
+}
+
+void query_plane_radiance(struct query *query, const struct query_view *view, lanes *radiance)
+{
+    const struct solution *s = query->solution;
+    struct query_view here = *view;
+    *radiance = lanes_set(0);
+    if (!move_to_air(s->optics, &here)) {
+        return;
+    }
+    const double sines =
+        sqrt(fmax(0, 1 - here.view_mu * here.view_mu) * fmax(0, 1 - here.sun_mu * here.sun_mu));
+    const float sun_mu = (float)here.sun_mu;
+    const float nu = (float)here.nu;
+    const struct transport_family family = {1, &sun_mu, &nu};
+    const unsigned state = lanes_flush_denormals();
+    add_single(query, &here, here.view_mu * here.sun_mu + sines, radiance);
+    transport_add_ground(&s->sun, NULL, &query->ray, &family, radiance);
     lanes_restore(state);
 }
