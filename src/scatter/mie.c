@@ -13,7 +13,7 @@ static size_t count_terms(double size)
     return (size_t)(size + 4 * cbrt(size) + 2);
 }
 
-// Where downward recurrences start. Beyond the turning point, n = z, an error shrinks with each step
+// Where downward recurrences start. Beyond the turning point, n = z, an error shrinks at each step
 // by exp(-2 acosh(n / z)), about exp(-2 sqrt(2 (n / z - 1))): from z + c z^(1/3) down to z by
 // exp(-1.9 c^1.5) in all, which for c = 8 is less than rounding.
 static size_t first_downward(double z)

@@ -27,10 +27,10 @@ void query_destroy(const trl_context *ctx, struct query **query);
 // of the ground where the ray meets it, no disc of the star.
 void query_radiance(struct query *query, const struct query_view *view, lanes *radiance);
 
-// The same by the model of Schafhitzel 2007: light scattered once, as if the star stood in the plane
-// of view and zenith, on the side of the view, where its light is attenuated; the phase functions
-// have the true angle. The ground is lit by the star alone, where it stands. The solution may be one
-// of a single order, which takes no solving.
+// The same by the model of Schafhitzel 2007: light scattered once, as if the star stood in the
+// plane of view and zenith, on the side of the view, where its light is attenuated; the phase
+// functions have the true angle. The ground is lit by the star alone, where it stands. The solution
+// may be one of a single order, which takes no solving.
 void query_plane_radiance(struct query *query, const struct query_view *view, lanes *radiance);
 
 #endif // SCATTER_QUERY_H
