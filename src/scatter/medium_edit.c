@@ -5,45 +5,18 @@
 #include <math.h>
 #include <string.h>
 
-static trl_result copy_spectrum(const trl_context *ctx, const struct spectrum *from,
-                                struct spectrum *to)
-{
-    if (from->kind == SPECTRUM_TABLE) {
-        return spectrum_table_init(ctx, from->table.nm, from->table.value, from->table.count, to);
-    }
-    *to = *from;
-    return TRL_OK;
-}
-
-// Two arrays in one block, as tables of profiles and phase functions are kept.
-static double *copy_pair(const trl_context *ctx, const double *first, const double *second,
-                         size_t count)
-{
-    double *block = mem_alloc(ctx, count, 2 * sizeof *block);
-    if (block) {
-        memcpy(block, first, count * sizeof *block);
-        memcpy(block + count, second, count * sizeof *block);
-    }
-    return block;
-}
-
-static trl_result copy_profile(const trl_context *ctx, const struct profile *from,
-                               struct profile *to)
-{
-    *to = *from;
-    if (from->kind == PROFILE_TABLE) {
-        to->altitude_m = copy_pair(ctx, from->altitude_m, from->density, from->count);
-        to->density = to->altitude_m ? to->altitude_m + from->count : NULL;
-    }
-    return from->kind != PROFILE_TABLE || to->altitude_m ? TRL_OK : TRL_ERROR_MEMORY;
-}
-
 static trl_result copy_phase(const trl_context *ctx, const struct phase *from, struct phase *to)
 {
     *to = *from;
     if (from->kind == PHASE_TABLE) {
-        to->angle_rad = copy_pair(ctx, from->angle_rad, from->value, from->count);
+        // Two arrays in one block; they are normalised already.
+        const size_t bytes = from->count * sizeof *from->value;
+        to->angle_rad = mem_alloc(ctx, 2, bytes);
         to->value = to->angle_rad ? to->angle_rad + from->count : NULL;
+        if (to->value) {
+            memcpy(to->angle_rad, from->angle_rad, bytes);
+            memcpy(to->value, from->value, bytes);
+        }
     }
     return from->kind != PHASE_TABLE || to->angle_rad ? TRL_OK : TRL_ERROR_MEMORY;
 }
@@ -54,13 +27,13 @@ static trl_result copy_constituent(const trl_context *ctx, const struct constitu
     to->name = mem_strdup(ctx, from->name ? from->name : "");
     trl_result result = to->name ? TRL_OK : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
-        result = copy_spectrum(ctx, &from->scattering_per_m, &to->scattering_per_m);
+        result = spectrum_copy(ctx, &from->scattering_per_m, &to->scattering_per_m);
     }
     if (result == TRL_OK) {
-        result = copy_spectrum(ctx, &from->absorption_per_m, &to->absorption_per_m);
+        result = spectrum_copy(ctx, &from->absorption_per_m, &to->absorption_per_m);
     }
     if (result == TRL_OK) {
-        result = copy_profile(ctx, &from->profile, &to->profile);
+        result = profile_copy(ctx, &from->profile, &to->profile);
     }
     return result == TRL_OK ? copy_phase(ctx, &from->phase, &to->phase) : result;
 }
@@ -72,9 +45,9 @@ trl_result medium_copy_atmosphere(const trl_context *ctx, const struct medium *p
     *out = (struct medium){.ground_radius_m = planet->ground_radius_m,
                            .top_radius_m = planet->ground_radius_m + height_m,
                            .star_angular_radius_rad = planet->star_angular_radius_rad};
-    trl_result result = copy_spectrum(ctx, &planet->ground_albedo, &out->ground_albedo);
+    trl_result result = spectrum_copy(ctx, &planet->ground_albedo, &out->ground_albedo);
     if (result == TRL_OK) {
-        result = copy_spectrum(ctx, &planet->star_irradiance, &out->star_irradiance);
+        result = spectrum_copy(ctx, &planet->star_irradiance, &out->star_irradiance);
     }
     for (size_t i = 0; i < atmosphere->constituent_count && result == TRL_OK; i++) {
         out->constituent_count = i + 1;
