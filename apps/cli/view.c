@@ -87,6 +87,7 @@ static enum exit_status open_window(struct app *app, const struct view_arguments
         const double frames = arguments->frames.is_given ? arguments->frames.value : 0.0;
         struct viewer_desc desc = {.ctx = app->ctx,
                                    .scene = scene,
+                                   .scene_path = arguments->scene,
                                    .sky_model = arguments->view.sky_model,
                                    .view = view,
                                    .width = arguments->size.width,

@@ -8,6 +8,8 @@
 
 static const double longest_step_s = 0.25; // a slow frame must not throw the camera far
 static const double sun_speed_rad_s = 0.35;
+static const double amount_step = 1.189207115002721; // four make double
+static const double asymmetry_step = 0.05;
 static const double pi = 3.14159265358979323846;
 
 static struct viewer *get_viewer(GLFWwindow *window)
@@ -116,6 +118,37 @@ static void change_exposure(struct viewer *viewer, int key)
     viewer->is_changed = true;
 }
 
+static void change_air(struct viewer *viewer, int key)
+{
+    struct edit *edit = &viewer->edit;
+    switch (key) {
+    case GLFW_KEY_C:
+        edit_choose_next(edit);
+        break;
+    case GLFW_KEY_COMMA:
+        edit_scale(edit, 1.0 / amount_step);
+        break;
+    case GLFW_KEY_PERIOD:
+        edit_scale(edit, amount_step);
+        break;
+    default:
+        edit_turn_asymmetry(edit, key == GLFW_KEY_APOSTROPHE ? asymmetry_step : -asymmetry_step);
+        break;
+    }
+    viewer->is_changed = true;
+    viewer->last_title_s = 0.0;
+}
+
+// The next one that pictures are made by.
+static void change_model(struct viewer *viewer)
+{
+    const trl_sky_model now = trl_renderer_sky_model(viewer->renderer);
+    const trl_sky_model next = now == TRL_SKY_RAYLEIGH ? TRL_SKY_SPECTRAL : now + 1;
+    if (trl_renderer_set_sky_model(viewer->renderer, next) == TRL_OK) {
+        viewer->is_changed = true;
+    }
+}
+
 static void note_key(GLFWwindow *window, int key, int scancode, int action, int modifiers)
 {
     (void)scancode;
@@ -135,6 +168,16 @@ static void note_key(GLFWwindow *window, int key, int scancode, int action, int 
     case GLFW_KEY_0:
     case GLFW_KEY_T:
         change_exposure(viewer, key);
+        break;
+    case GLFW_KEY_C:
+    case GLFW_KEY_COMMA:
+    case GLFW_KEY_PERIOD:
+    case GLFW_KEY_SEMICOLON:
+    case GLFW_KEY_APOSTROPHE:
+        change_air(viewer, key);
+        break;
+    case GLFW_KEY_M:
+        change_model(viewer);
         break;
     case GLFW_KEY_F:
         toggle_fullscreen(viewer);

@@ -4,6 +4,7 @@
 #define VIEWER_SESSION_H
 // One open window: what window.c draws and controls.c moves.
 
+#include "edit.h"
 #include "fly.h"
 #include "pace.h"
 #include "viewer.h"
@@ -15,6 +16,7 @@ struct viewer {
     const struct viewer_desc *desc;
     GLFWwindow *window;
     trl_renderer *renderer;
+    struct edit edit;
     struct fly_camera camera;
     trl_view view; // sun and exposure, and the camera as last drawn
     struct fly_flight flight;
@@ -24,9 +26,10 @@ struct viewer {
     double drag_right_px, drag_up_px; // since the last frame
     bool looks_only;                  // dragged with the right button
     double cursor_x, cursor_y;
-    double last_frame_s, last_change_s, last_title_s, frame_s;
+    double last_frame_s, last_change_s, last_title_s, last_look_s, frame_s;
     bool is_changed;    // a frame is due
     bool was_moving;    // the last frame was
+    bool was_solving;   // an atmosphere was not finished at the last frame
     bool wants_picture; // P was pressed
     uint64_t frame_count;
     uint32_t drawn_width, drawn_height;

@@ -13,7 +13,10 @@
     "  left, right       turn the sun by time of day (also [ and ])\n"                             \
     "  up, down          turn the sun by season\n"                                                 \
     "  + -  0            brighter, darker; automatic exposure without bias\n"                      \
-    "  T                 other tone curve\n"                                                       \
+    "  T  M              other tone curve; other model of the sky\n"                               \
+    "  C                 choose a constituent of the air, one after the other\n"                   \
+    "  , .               less, more of it\n"                                                       \
+    "  ; '               scatter it less, more forward (asymmetry g)\n"                            \
     "  1 … 9             fly to a view of the scene\n"                                           \
     "  F  P  H           full screen; save a picture; print these keys\n"                          \
     "  Esc               quit\n"
@@ -23,6 +26,7 @@ enum { VIEWER_MESSAGE_MAX = 256 };
 struct viewer_desc {
     trl_context *ctx;
     const trl_scene *scene;
+    const char *scene_path; // the file, which is followed when it is saved; NULL: not followed
     int sky_model;          // as in trl_renderer_desc
     trl_view view;          // where it begins
     uint32_t width, height; // of the window

@@ -10,6 +10,7 @@
 static const double settle_s = 2.0;    // automatic exposure follows for about this long
 static const double idle_wait_s = 0.5; // between looks at whether to stop
 static const double title_interval_s = 0.5;
+static const double file_interval_s = 0.5; // between looks at the scene's file
 
 static void show_title(struct viewer *viewer, double now_s)
 {
@@ -22,11 +23,14 @@ static void show_title(struct viewer *viewer, double now_s)
         return;
     }
     const double altitude_m = viewer->view.altitude_m;
-    char title[256];
+    char edited[EDIT_TEXT_MAX];
+    edit_describe(&viewer->edit, edited);
+    char title[384];
     snprintf(title, sizeof title,
-             "%s: %.1f ms at %ux%u, %.*f %s, EV %.1f%+.2f, speed %.3g, H: keys",
-             trl_scene_name(viewer->desc->scene), 1e3 * viewer->frame_s, viewer->drawn_width,
-             viewer->drawn_height, altitude_m < 1e5 ? 1 : 0,
+             "%s: %s%s%s%.1f ms at %ux%u, %.*f %s, EV %.1f%+.2f, speed %.3g, H: keys",
+             trl_scene_name(viewer->desc->scene), edited, *edited ? ", " : "",
+             trl_renderer_is_settled(viewer->renderer) ? "" : "solving, ", 1e3 * viewer->frame_s,
+             viewer->drawn_width, viewer->drawn_height, altitude_m < 1e5 ? 1 : 0,
              altitude_m < 1e4 ? altitude_m : 1e-3 * altitude_m, altitude_m < 1e4 ? "m" : "km",
              ev100, viewer->view.exposure_bias_ev, viewer->speed_factor);
     glfwSetWindowTitle(viewer->window, title);
@@ -105,6 +109,17 @@ static bool is_minimised(const struct viewer *viewer)
     return width < 1 || height < 1 || glfwGetWindowAttrib(viewer->window, GLFW_ICONIFIED);
 }
 
+static void follow_file(struct viewer *viewer, double now_s)
+{
+    if (now_s - viewer->last_look_s < file_interval_s) {
+        return;
+    }
+    viewer->last_look_s = now_s;
+    if (edit_follow_file(&viewer->edit)) {
+        viewer->is_changed = true;
+    }
+}
+
 // One turn of the loop. A frame is drawn while something moves (fewer pixels if need be), once more
 // with all of them when it stops, and until the automatic exposure has settled.
 static bool run_turn(struct viewer *viewer)
@@ -115,10 +130,16 @@ static bool run_turn(struct viewer *viewer)
     if (is_moving || viewer->is_changed) {
         viewer->last_change_s = now_s;
     }
+    follow_file(viewer, now_s);
+    const bool is_solved = trl_renderer_is_settled(viewer->renderer);
+    if (!is_solved || viewer->was_solving) {
+        viewer->last_change_s = now_s; // what comes of it has to be exposed for
+    }
+    viewer->was_solving = !is_solved;
     const bool is_settling =
         !viewer->view.has_fixed_exposure && now_s - viewer->last_change_s < settle_s;
-    const bool is_due = is_moving || viewer->was_moving || viewer->is_changed || is_settling ||
-                        viewer->desc->frame_limit > 0;
+    const bool is_due = !is_solved || is_moving || viewer->was_moving || viewer->is_changed ||
+                        is_settling || viewer->desc->frame_limit > 0;
     viewer->last_frame_s = now_s;
     if (is_due) {
         viewer->is_changed = false;
@@ -208,7 +229,10 @@ static void fly_scene(struct viewer *viewer)
     }
     viewer->camera =
         fly_camera_from_view(&viewer->view, trl_scene_ground_radius_m(viewer->desc->scene));
+    edit_init(&viewer->edit, viewer->desc->ctx, viewer->renderer, viewer->desc->scene_path,
+              viewer->desc->scene);
     run_loop(viewer);
+    edit_finish(&viewer->edit);
 }
 
 trl_result viewer_run(const struct viewer_desc *desc, char message[VIEWER_MESSAGE_MAX])
