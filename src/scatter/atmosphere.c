@@ -7,11 +7,6 @@
 
 #include <time.h>
 
-// The range that matters for colours: the observer's functions are below 1 % of their peaks
-// outside.
-static const double FIRST_NM = 385;
-static const double LAST_NM = 715;
-
 struct atmosphere_desc atmosphere_desc_default(void)
 {
     return (struct atmosphere_desc){.wavelengths = LANES, .uses_cache = true};
@@ -22,15 +17,6 @@ static double seconds(void)
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static void fill_optics(struct optics *optics, const struct medium *medium, uint32_t count)
-{
-    double nm[LANES];
-    for (uint32_t k = 0; k < count; k++) {
-        nm[k] = count > 1 ? FIRST_NM + (LAST_NM - FIRST_NM) * k / (count - 1) : 550;
-    }
-    optics_init(optics, medium, nm, (int)count);
 }
 
 // A draft has about two thirds of the grid each way, and knows fewer moments and directions.
@@ -143,7 +129,7 @@ trl_result atmosphere_create(const trl_context *ctx, const struct medium *medium
         result = TRL_ERROR_MEMORY;
     }
     if (result == TRL_OK) {
-        fill_optics(a->optics, &a->medium, desc->wavelengths);
+        optics_init_visible(a->optics, &a->medium, (int)desc->wavelengths);
         result = obtain(a, desc);
     }
     if (result != TRL_OK || !a->table.texels) {

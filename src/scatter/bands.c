@@ -88,7 +88,7 @@ static double surface_albedo(int surface, double x)
     return values[surface];
 }
 
-static void add_surfaces(struct band_fit *fit, const lanes *light)
+void band_fit_add_surfaces(struct band_fit *fit, const lanes *light)
 {
     static const float ways[] = {0, 1, 3}; // through the vertical optical depth
     const struct optics *optics = fit->optics;
@@ -118,14 +118,14 @@ void band_fit_add_products(struct band_fit *fit, const struct solution *solution
         const double mu = cos(suns_deg[s] * M_PI / 180);
         lanes star;
         sunlight_at(&solution->sun, fit->optics->ground_radius_m, mu, &star);
-        add_surfaces(fit, &star);
+        band_fit_add_surfaces(fit, &star);
         int nearest = 0;
         for (int i = 0; i < m->suns; i++) {
             nearest = fabs(moments_sun_mu(m, i) - mu) < fabs(moments_sun_mu(m, nearest) - mu)
                           ? i
                           : nearest;
         }
-        add_surfaces(fit, &m->irradiance[nearest]);
+        band_fit_add_surfaces(fit, &m->irradiance[nearest]);
     }
 }
 

@@ -34,6 +34,8 @@ struct band_fit {
 void band_fit_init(struct band_fit *fit, const struct optics *optics);
 // Adds a spectrum of radiance per unit irradiance; spectra count alike, whatever their brightness.
 void band_fit_add(struct band_fit *fit, const lanes *spectrum);
+// Adds surfaces of many colours in this light, bare and behind air.
+void band_fit_add_surfaces(struct band_fit *fit, const lanes *light);
 // Adds what the GPU multiplies: light of the star and of the sky, on surfaces of many colours,
 // behind air.
 void band_fit_add_products(struct band_fit *fit, const struct solution *solution);

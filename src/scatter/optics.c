@@ -9,6 +9,11 @@
 // ground) together.
 static const double UNIFORM_SHARE = 0.3;
 
+// The range that matters for colours: the observer's functions are below 1 % of their peaks
+// outside.
+static const double FIRST_NM = 385;
+static const double LAST_NM = 715;
+
 // Peaks lower than this are left to the moments.
 static const double LEAST_FORWARD_SHARE = 0.05;
 
@@ -187,4 +192,13 @@ void optics_init(struct optics *optics, const struct medium *medium, const doubl
     fill_depths(optics, column);
     choose_shares(optics, column, root_column);
     fill_shells(optics);
+}
+
+void optics_init_visible(struct optics *optics, const struct medium *medium, int count)
+{
+    double nm[LANES];
+    for (int k = 0; k < count; k++) {
+        nm[k] = count > 1 ? FIRST_NM + (LAST_NM - FIRST_NM) * k / (count - 1) : 550;
+    }
+    optics_init(optics, medium, nm, count);
 }

@@ -43,6 +43,9 @@ struct optics {
 void optics_init(struct optics *optics, const struct medium *medium, const double *wavelength_nm,
                  int count);
 
+// The same at `count` wavelengths that are spread evenly over what eyes see, for colours.
+void optics_init_visible(struct optics *optics, const struct medium *medium, int count);
+
 // The largest vertical optical depth over the wavelengths: grids and rules grow with it.
 double optics_largest_depth(const struct optics *optics);
 

@@ -54,6 +54,33 @@ void sky_set_vec4(struct gpu_program *program, const char *name, double x, doubl
     gpu_program_set_vec4(program, name, values);
 }
 
+void sky_set_bands(struct gpu_program *program, const struct bands *bands,
+                   const struct optics *optics, double lights_cd_m2)
+{
+    float rgb_from_bands[12];
+    float bands_from_rgb[12];
+    float bands_of_light[12];
+    for (int k = 0; k < 3; k++) {
+        double star_cd_m2 = 0; // what all bands together show
+        for (int r = 0; r < BAND_COUNT; r++) {
+            star_cd_m2 += (double)bands->rgb_from_bands[k][r];
+        }
+        const float scale = star_cd_m2 > 0 ? (float)(lights_cd_m2 / star_cd_m2) : 0;
+        for (int r = 0; r < BAND_COUNT; r++) {
+            rgb_from_bands[4 * k + r] = bands->rgb_from_bands[k][r];
+            bands_from_rgb[4 * k + r] = bands->bands_from_rgb[r][k];
+            bands_of_light[4 * k + r] = scale * bands->bands_from_rgb[r][k];
+        }
+    }
+    gpu_program_set_vec4s(program, "u_rgb_from_bands", rgb_from_bands, 3);
+    gpu_program_set_vec4s(program, "u_bands_from_rgb", bands_from_rgb, 3);
+    gpu_program_set_vec4s(program, "u_bands_of_light", bands_of_light, 3);
+    const lanes *albedo = &optics->ground_albedo;
+    sky_set_vec4(program, "u_ground_albedo", (double)(*albedo)[bands->lane[0]],
+                 (double)(*albedo)[bands->lane[1]], (double)(*albedo)[bands->lane[2]],
+                 (double)(*albedo)[bands->lane[3]]);
+}
+
 // The uniforms of ray.glsl.
 static void set_view(const struct sky_pixels *pixels, struct gpu_program *program,
                      const struct sky_view *view)

@@ -7,6 +7,7 @@
 // branch. Programs have the vertex shader sky/layer.vert, include sky/ray.glsl, and for the ground
 // sky/ground.glsl (with SURFACE where there are surface buffers).
 
+#include "scatter/bands.h"
 #include "sky/sky.h"
 
 enum sky_kind {
@@ -40,6 +41,11 @@ TRL_MUST_USE trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct 
 TRL_MUST_USE trl_result sky_pixels_draw(const struct sky_pixels *pixels,
                                         struct gpu_program *program, enum sky_kind kind,
                                         const struct sky_view *view);
+
+// Uniforms of models that keep light in bands: u_rgb_from_bands (rows), u_bands_from_rgb (columns),
+// u_ground_albedo, u_bands_of_light (columns: lights at night of which white has `lights_cd_m2`).
+void sky_set_bands(struct gpu_program *program, const struct bands *bands,
+                   const struct optics *optics, double lights_cd_m2);
 
 void sky_set_vec3(struct gpu_program *program, const char *name, struct vec3 v);
 void sky_set_vec4(struct gpu_program *program, const char *name, double x, double y, double z,

@@ -8,6 +8,7 @@ static const struct sky_model *find_model(trl_sky_model model)
     case TRL_SKY_SPECTRAL:
         return &sky_spectral;
     case TRL_SKY_SINGLE:
+        return &sky_single;
     case TRL_SKY_RAYLEIGH:
     case TRL_SKY_REFERENCE:
         return NULL; // paths are traced without OpenGL

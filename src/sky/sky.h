@@ -55,6 +55,7 @@ struct sky_model {
 };
 
 extern const struct sky_model sky_spectral; // spectral.c
+extern const struct sky_model sky_single;   // single.c
 
 enum { SKY_MODELS = TRL_SKY_RAYLEIGH + 1 }; // that make pictures
 

@@ -168,49 +168,16 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
     return result == TRL_OK ? spectral_maps_update(&sky->maps, &eye) : result;
 }
 
-// Columns of the matrices of the bands, as the shader multiplies them.
-static void set_colours(const struct spectral *sky, struct gpu_program *program)
+// XYZ to the picture's primaries.
+static void set_xyz(struct gpu_program *program)
 {
-    const struct bands *b = &sky->maps.atmosphere->bands;
     float rgb_from_xyz[12] = {0};
-    float rgb_from_bands[12];
-    float bands_from_rgb[12];
-    for (int k = 0; k < 3; k++) {
-        for (int r = 0; r < BAND_COUNT; r++) {
-            rgb_from_bands[4 * k + r] = b->rgb_from_bands[k][r];
-            bands_from_rgb[4 * k + r] = b->bands_from_rgb[r][k];
-        }
-    }
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < 3; i++) {
             rgb_from_xyz[4 * k + i] = (float)cie_rgb_from_xyz[k][i];
         }
     }
     gpu_program_set_vec4s(program, "u_rgb_from_xyz", rgb_from_xyz, 3);
-    gpu_program_set_vec4s(program, "u_rgb_from_bands", rgb_from_bands, 3);
-    gpu_program_set_vec4s(program, "u_bands_from_rgb", bands_from_rgb, 3);
-    const lanes *albedo = &sky->maps.atmosphere->optics->ground_albedo;
-    sky_set_vec4(program, "u_ground_albedo", (double)(*albedo)[b->lane[0]],
-                 (double)(*albedo)[b->lane[1]], (double)(*albedo)[b->lane[2]],
-                 (double)(*albedo)[b->lane[3]]);
-}
-
-// Lights at night: white shows `white_cd_m2`.
-static void set_lights(const struct spectral *sky, struct gpu_program *program, double white_cd_m2)
-{
-    const struct bands *b = &sky->maps.atmosphere->bands;
-    float bands_of_light[12];
-    for (int k = 0; k < 3; k++) {
-        double star_cd_m2 = 0; // what all bands together show
-        for (int r = 0; r < BAND_COUNT; r++) {
-            star_cd_m2 += (double)b->rgb_from_bands[k][r];
-        }
-        const double scale = star_cd_m2 > 0 ? white_cd_m2 / star_cd_m2 : 0;
-        for (int r = 0; r < BAND_COUNT; r++) {
-            bands_of_light[4 * k + r] = (float)(scale * (double)b->bands_from_rgb[r][k]);
-        }
-    }
-    gpu_program_set_vec4s(program, "u_bands_of_light", bands_of_light, 3);
 }
 
 static void set_maps(const struct spectral *sky, struct gpu_program *program)
@@ -245,7 +212,9 @@ static void set_maps(const struct spectral *sky, struct gpu_program *program)
 static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, enum sky_kind kind,
                             const struct sky_view *view)
 {
-    set_colours(sky, program);
+    sky_set_bands(program, &sky->maps.atmosphere->bands, sky->maps.atmosphere->optics,
+                  view->surface.lights_cd_m2);
+    set_xyz(program);
     set_maps(sky, program);
     return sky_pixels_draw(&sky->pixels, program, kind, view);
 }
@@ -253,11 +222,7 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
 static trl_result spectral_draw(void *self, const struct sky_view *view)
 {
     struct spectral *sky = self;
-    const bool is_bare = sky_view_is_bare(view);
-    struct gpu_program *ground = is_bare ? &sky->ground_bare : &sky->ground_surface;
-    if (!is_bare) {
-        set_lights(sky, ground, view->surface.lights_cd_m2);
-    }
+    struct gpu_program *ground = sky_view_is_bare(view) ? &sky->ground_bare : &sky->ground_surface;
     trl_result result = sky_pixels_sort(&sky->pixels, view);
     if (result == TRL_OK) {
         result = draw_kind(sky, &sky->air, SKY_KIND_AIR, view);

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// The model of Schafhitzel, Falk and Ertl 2007: one scattering, tabulated once for all eyes and
+// suns (scatter/single.h), looked up per pixel. Nothing is computed for a frame.
+//
+//     scattered  3D RGBA32F  view x sun x height, light from there to the ray's end; each channel
+//     depth      2D RGBA32F  view x height, optical depth to the top
+//     light      2D RGBA32F  sun x height, direct light
+//     medium     2D RGBA32F  height x (extinction, scattering of each channel), per m
+//     phase      2D RGBA32F  sine of half the angle, the phase functions of the channels
+//
+// All in four bands per unit irradiance of the star (scatter/bands.h) but the last.
+#include "scatter/single.h"
+#include "sky/pixels.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { PHASE_SAMPLES = 1024 };
+
+struct single {
+    const trl_context *ctx;
+    struct gpu *gpu;
+    struct optics *optics;       // owned
+    struct single_tables tables; // its texels are freed once they are on the GPU
+    struct sky_pixels pixels;
+    struct gpu_program air, star, ground_bare, ground_surface;
+    struct gpu_texture scattered[SINGLE_CHANNELS];
+    struct gpu_texture depth, light, medium, phase;
+};
+
+static const char *const SCATTERED_NAMES[] = {"u_scattered0", "u_scattered1", "u_scattered2",
+                                              "u_scattered3"};
+
+static trl_result make_texture(struct gpu *gpu, const char *label, const uint32_t size[3],
+                               const float *texels, struct gpu_texture *out)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = label;
+    desc.shape = size[2] > 1 ? GPU_SHAPE_3D : GPU_SHAPE_2D;
+    desc.format = GPU_FORMAT_RGBA32F;
+    desc.width = size[0];
+    desc.height = size[1];
+    desc.depth = size[2];
+    desc.data = texels;
+    return gpu_texture_init(gpu, &desc, out);
+}
+
+// Over the sine of half the angle, which spreads the forward peak.
+static trl_result make_phase(struct single *sky)
+{
+    float *texels = mem_alloc(sky->ctx, PHASE_SAMPLES * 4, sizeof *texels);
+    if (!texels) {
+        return TRL_ERROR_MEMORY;
+    }
+    for (int s = 0; s < PHASE_SAMPLES; s++) {
+        const double x = (double)s / (PHASE_SAMPLES - 1);
+        for (int c = 0; c < sky->tables.channels; c++) {
+            texels[4 * s + c] = (float)single_phase(&sky->tables, c, 1 - 2 * x * x);
+        }
+    }
+    const uint32_t size[3] = {PHASE_SAMPLES, 1, 1};
+    const trl_result result = make_texture(sky->gpu, "phase", size, texels, &sky->phase);
+    mem_free(sky->ctx, texels);
+    return result;
+}
+
+static trl_result make_maps(struct single *sky)
+{
+    const struct single_tables *t = &sky->tables;
+    const uint32_t all[3] = {SINGLE_VIEWS, SINGLE_SUNS, SINGLE_HEIGHTS};
+    const uint32_t depth[3] = {SINGLE_DEPTH_VIEWS, SINGLE_HEIGHTS, 1};
+    const uint32_t light[3] = {SINGLE_LIGHT_SUNS, SINGLE_HEIGHTS, 1};
+    const uint32_t medium[3] = {SINGLE_MEDIUM_ALTITUDES, 1 + (uint32_t)t->channels, 1};
+    trl_result result = TRL_OK;
+    for (int c = 0; c < t->channels && result == TRL_OK; c++) {
+        result =
+            make_texture(sky->gpu, "single scattering", all, t->scattered[c], &sky->scattered[c]);
+    }
+    if (result == TRL_OK) {
+        result = make_texture(sky->gpu, "optical depth", depth, t->depth, &sky->depth);
+    }
+    if (result == TRL_OK) {
+        result = make_texture(sky->gpu, "star light", light, t->light, &sky->light);
+    }
+    if (result == TRL_OK) {
+        result = make_texture(sky->gpu, "medium", medium, t->medium, &sky->medium);
+    }
+    return result == TRL_OK ? make_phase(sky) : result;
+}
+
+struct variant {
+    struct gpu_program *program;
+    const char *fragment;
+    const char *define;
+};
+
+static trl_result make_programs(struct single *sky)
+{
+    const struct variant variants[] = {
+        {&sky->air, "sky/single/sky.frag", NULL},
+        {&sky->star, "sky/single/sky.frag", "STAR"},
+        {&sky->ground_bare, "sky/single/ground.frag", NULL},
+        {&sky->ground_surface, "sky/single/ground.frag", "SURFACE"},
+    };
+    char channels[32];
+    snprintf(channels, sizeof channels, "CHANNEL_COUNT %d", sky->tables.channels);
+    trl_result result = TRL_OK;
+    for (size_t i = 0; i < sizeof variants / sizeof *variants && result == TRL_OK; i++) {
+        const char *const defines[] = {channels, variants[i].define};
+        const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
+                                              .fragment = variants[i].fragment,
+                                              .defines = defines,
+                                              .define_count = variants[i].define ? 2 : 1};
+        result = gpu_program_init(sky->gpu, &desc, variants[i].program);
+    }
+    return result;
+}
+
+static trl_result init(const struct sky_desc *desc, struct single *sky)
+{
+    sky->optics = mem_alloc(sky->ctx, 1, sizeof *sky->optics);
+    if (!sky->optics) {
+        return TRL_ERROR_MEMORY;
+    }
+    optics_init_visible(sky->optics, desc->medium, (int)desc->wavelengths);
+    trl_result result = single_tables_init(sky->ctx, sky->optics, &sky->tables);
+    if (result == TRL_OK) {
+        result = sky_pixels_init(desc, sky->tables.sun.disc_rad, &sky->pixels);
+    }
+    if (result == TRL_OK) {
+        result = make_programs(sky);
+    }
+    if (result == TRL_OK) {
+        result = make_maps(sky);
+    }
+    single_tables_drop(sky->ctx, &sky->tables);
+    return result;
+}
+
+static void single_destroy(void **self)
+{
+    struct single *sky = *self;
+    const trl_context *ctx = sky->ctx;
+    sky_pixels_finish(&sky->pixels);
+    gpu_program_finish(&sky->air);
+    gpu_program_finish(&sky->star);
+    gpu_program_finish(&sky->ground_bare);
+    gpu_program_finish(&sky->ground_surface);
+    for (int c = 0; c < SINGLE_CHANNELS; c++) {
+        gpu_texture_finish(&sky->scattered[c]);
+    }
+    gpu_texture_finish(&sky->depth);
+    gpu_texture_finish(&sky->light);
+    gpu_texture_finish(&sky->medium);
+    gpu_texture_finish(&sky->phase);
+    single_tables_finish(ctx, &sky->tables);
+    mem_free(ctx, sky->optics);
+    mem_free(ctx, sky);
+    *self = NULL;
+}
+
+static trl_result single_create(const struct sky_desc *desc, void **self)
+{
+    const trl_context *ctx = desc->gpu->ctx;
+    struct single *sky = mem_alloc(ctx, 1, sizeof *sky);
+    *self = sky;
+    if (!sky) {
+        return TRL_ERROR_MEMORY;
+    }
+    sky->ctx = ctx;
+    sky->gpu = desc->gpu;
+    const trl_result result = init(desc, sky);
+    if (result != TRL_OK) {
+        single_destroy(self);
+    }
+    return result;
+}
+
+static trl_result single_prepare(void *self, const struct sky_view *view)
+{
+    (void)self;
+    (void)view;
+    return TRL_OK;
+}
+
+static void set_maps(const struct single *sky, struct gpu_program *program)
+{
+    const struct single_tables *t = &sky->tables;
+    const float depth_texels[2] = {SINGLE_DEPTH_VIEWS, SINGLE_HEIGHTS};
+    sky_set_vec4(program, "u_sun_grid", t->sun_centre, t->sun_width, t->sun_first, t->sun_last);
+    sky_set_vec4(program, "u_texels", SINGLE_HEIGHTS, SINGLE_SUNS, SINGLE_VIEWS,
+                 SINGLE_GROUND_VIEWS);
+    sky_set_vec4(program, "u_light_texels", SINGLE_LIGHT_SUNS, SINGLE_HEIGHTS,
+                 SINGLE_MEDIUM_ALTITUDES, 1 + t->channels);
+    gpu_program_set_vec2(program, "u_depth_texels", depth_texels);
+    gpu_program_set_float(program, "u_light_soft", (float)SUNLIGHT_SOFT);
+    for (int c = 0; c < t->channels; c++) {
+        gpu_program_set_texture(program, SCATTERED_NAMES[c], &sky->scattered[c]);
+    }
+    gpu_program_set_texture(program, "u_optical_depth", &sky->depth);
+    gpu_program_set_texture(program, "u_light", &sky->light);
+    gpu_program_set_texture(program, "u_medium", &sky->medium);
+    gpu_program_set_texture(program, "u_phase", &sky->phase);
+}
+
+static trl_result draw_kind(struct single *sky, struct gpu_program *program, enum sky_kind kind,
+                            const struct sky_view *view)
+{
+    sky_set_bands(program, &sky->tables.bands, sky->optics, view->surface.lights_cd_m2);
+    set_maps(sky, program);
+    return sky_pixels_draw(&sky->pixels, program, kind, view);
+}
+
+static trl_result single_draw(void *self, const struct sky_view *view)
+{
+    struct single *sky = self;
+    struct gpu_program *ground = sky_view_is_bare(view) ? &sky->ground_bare : &sky->ground_surface;
+    trl_result result = sky_pixels_sort(&sky->pixels, view);
+    if (result == TRL_OK) {
+        result = draw_kind(sky, &sky->air, SKY_KIND_AIR, view);
+    }
+    if (result == TRL_OK) {
+        result = draw_kind(sky, &sky->star, SKY_KIND_STAR, view);
+    }
+    return result == TRL_OK ? draw_kind(sky, ground, SKY_KIND_GROUND, view) : result;
+}
+
+const struct sky_model sky_single = {.create = single_create,
+                                     .destroy = single_destroy,
+                                     .prepare = single_prepare,
+                                     .draw = single_draw};
