@@ -198,6 +198,25 @@ static double fit_choice(const struct band_fit *fit, double projected[3][LANES],
     return fmax(0, left);
 }
 
+// By cofactors; false when the matrix is singular.
+static bool invert_three(double m[3][3], double inverse[3][3])
+{
+    double determinant = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            const int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+            inverse[i][j] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
+        }
+        determinant += m[0][i] * inverse[i][0];
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            inverse[i][j] /= determinant;
+        }
+    }
+    return fabs(determinant) > 0 && isfinite(1 / determinant);
+}
+
 // Albedo by least change: with white w = M 1 and N = diag(1/w) M, the bands of a colour c are the
 // smallest ones with N a = c, plus a share of N's null space that makes white 1 in every band.
 static void derive_albedo(struct bands *bands)
@@ -212,8 +231,7 @@ static void derive_albedo(struct bands *bands)
             n[k][r] = (double)bands->rgb_from_bands[k][r] / white;
         }
     }
-    // N^T (N N^T)^-1, with the inverse by cofactors
-    double p[3][3] = {{0}};
+    double p[3][3] = {{0}}; // N N^T
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             for (int r = 0; r < BAND_COUNT; r++) {
@@ -222,20 +240,12 @@ static void derive_albedo(struct bands *bands)
         }
     }
     double inverse[3][3];
-    double determinant = 0;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            const int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-            inverse[i][j] = p[a][c] * p[b][d] - p[a][d] * p[b][c];
-        }
-        determinant += p[0][i] * inverse[i][0];
-    }
+    invert_three(p, inverse);
     for (int r = 0; r < BAND_COUNT; r++) {
         double row[3];
         double sum = 0;
         for (int k = 0; k < 3; k++) {
-            row[k] = (n[0][r] * inverse[0][k] + n[1][r] * inverse[1][k] + n[2][r] * inverse[2][k]) /
-                     determinant;
+            row[k] = n[0][r] * inverse[0][k] + n[1][r] * inverse[1][k] + n[2][r] * inverse[2][k];
             sum += row[k];
         }
         for (int k = 0; k < 3; k++) {
@@ -269,34 +279,102 @@ static void choose_few(const struct band_fit *fit, struct bands *out)
     }
 }
 
-void band_fit_choose(const struct band_fit *fit, struct bands *out)
+// What every choice needs of a fit.
+struct fit_sums {
+    double projected[3][LANES]; // W G
+    double whole;               // trace(W G W^T)
+    double spectra;             // how many were added: each has luminance 1
+};
+
+static struct fit_sums sum_fit(const struct band_fit *fit)
 {
-    *out = (struct bands){.rms_error = INFINITY};
+    struct fit_sums sums = {0};
     const int count = fit->optics->wavelength_count;
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < count; i++) {
-            out->xyz_from_lanes[k][i] = (float)fit->xyz_from_lanes[k][i];
-        }
-    }
-    double projected[3][LANES] = {{0}}; // W G
-    double whole = 0;
-    for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < count; i++) {
             for (int j = 0; j < count; j++) {
-                projected[k][i] += fit->rgb_from_lanes[k][j] * fit->gram[j][i];
+                sums.projected[k][i] += fit->rgb_from_lanes[k][j] * fit->gram[j][i];
             }
-            whole += projected[k][i] * fit->rgb_from_lanes[k][i];
+            sums.whole += sums.projected[k][i] * fit->rgb_from_lanes[k][i];
         }
     }
-    double spectra = 0; // how many were added: each has luminance 1
+    const double to_y[3] = {0.2126, 0.7152, 0.0722};
     for (int i = 0; i < count; i++) {
-        const double to_y[3] = {0.2126, 0.7152, 0.0722};
         for (int k = 0; k < 3; k++) {
             for (int j = 0; j < 3; j++) {
-                spectra += to_y[k] * to_y[j] * projected[k][i] * fit->rgb_from_lanes[j][i];
+                sums.spectra +=
+                    to_y[k] * to_y[j] * sums.projected[k][i] * fit->rgb_from_lanes[j][i];
             }
         }
     }
+    return sums;
+}
+
+// One fit that is tried on many choices. Returns what it leaves, a spectrum; 0 without any.
+static double try_choice(const struct band_fit *fit, struct fit_sums *sums, const int *lane,
+                         double matrix[3][BAND_COUNT])
+{
+    if (!(sums->spectra > 0)) {
+        return 0;
+    }
+    return fit_choice(fit, sums->projected, sums->whole, lane, matrix) / sums->spectra;
+}
+
+static void copy_matrix(double from[3][BAND_COUNT], float to[3][BAND_COUNT])
+{
+    for (int k = 0; k < 3; k++) {
+        for (int r = 0; r < BAND_COUNT; r++) {
+            to[k][r] = (float)from[k][r];
+        }
+    }
+}
+
+// The bands of a colour by regression over the spectra of the fit, B = G_S W^T (W G W^T)^-1, then
+// turned so that the matrix gives the colour back: B (M B)^-1.
+static void derive_bands(const struct band_fit *fit, const struct fit_sums *sums, const int *lane,
+                         struct added_bands *out)
+{
+    double whole[3][3] = {{0}}; // W G W^T
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            for (int k = 0; k < fit->optics->wavelength_count; k++) {
+                whole[i][j] += sums->projected[i][k] * fit->rgb_from_lanes[j][k];
+            }
+        }
+    }
+    double inverse[3][3];
+    double b[BAND_COUNT][3] = {{0}};
+    bool is_good = invert_three(whole, inverse);
+    double back[3][3] = {{0}}; // M B
+    for (int r = 0; r < BAND_COUNT; r++) {
+        for (int k = 0; k < 3; k++) {
+            for (int j = 0; j < 3; j++) {
+                b[r][k] += sums->projected[j][lane[r]] * inverse[j][k];
+            }
+            for (int j = 0; j < 3; j++) {
+                back[j][k] += (double)out->rgb_from_bands[j][r] * b[r][k];
+            }
+        }
+    }
+    is_good = is_good && invert_three(back, inverse);
+    for (int r = 0; r < BAND_COUNT; r++) {
+        for (int k = 0; k < 3; k++) {
+            double sum = 0;
+            for (int j = 0; j < 3; j++) {
+                sum += b[r][j] * inverse[j][k];
+            }
+            out->bands_from_rgb[r][k] = is_good ? (float)sum : 0;
+        }
+    }
+}
+
+// The choice of four that leaves least of both fits together.
+static double search_choices(const struct band_fit *fit, const struct band_fit *added,
+                             struct bands *out, struct added_bands *added_out)
+{
+    const int count = fit->optics->wavelength_count;
+    struct fit_sums sums = sum_fit(fit);
+    struct fit_sums added_sums = sum_fit(added);
     double best = INFINITY;
     int lane[BAND_COUNT];
     for (lane[0] = 0; lane[0] < count; lane[0]++) {
@@ -304,30 +382,55 @@ void band_fit_choose(const struct band_fit *fit, struct bands *out)
             for (lane[2] = lane[1] + 1; lane[2] < count; lane[2]++) {
                 for (lane[3] = lane[2] + 1; lane[3] < count; lane[3]++) {
                     double matrix[3][BAND_COUNT] = {{0}};
-                    const double left = fit_choice(fit, projected, whole, lane, matrix);
-                    if (!(left < best)) {
-                        continue;
-                    }
-                    best = left;
-                    memcpy(out->lane, lane, sizeof lane);
-                    for (int k = 0; k < 3; k++) {
-                        for (int r = 0; r < BAND_COUNT; r++) {
-                            out->rgb_from_bands[k][r] = (float)matrix[k][r];
-                        }
+                    double added_matrix[3][BAND_COUNT] = {{0}};
+                    const double left = try_choice(fit, &sums, lane, matrix);
+                    const double added_left = try_choice(added, &added_sums, lane, added_matrix);
+                    if (left + added_left < best) {
+                        best = left + added_left;
+                        out->rms_error = sqrt(left);
+                        added_out->rms_error = sqrt(added_left);
+                        memcpy(out->lane, lane, sizeof lane);
+                        copy_matrix(matrix, out->rgb_from_bands);
+                        copy_matrix(added_matrix, added_out->rgb_from_bands);
                     }
                 }
             }
         }
     }
-    if (spectra > 0 && best < HUGE_VAL) {
-        out->rms_error = sqrt(best / spectra);
+    const bool is_good = sums.spectra > 0 && best < HUGE_VAL;
+    if (is_good && added_sums.spectra > 0) {
+        derive_bands(added, &added_sums, out->lane, added_out);
+    }
+    return is_good ? best : INFINITY;
+}
+
+void band_fit_choose_both(const struct band_fit *fit, const struct band_fit *added,
+                          struct bands *out, struct added_bands *added_out)
+{
+    *out = (struct bands){.rms_error = INFINITY};
+    *added_out = (struct added_bands){0};
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < fit->optics->wavelength_count; i++) {
+            out->xyz_from_lanes[k][i] = (float)fit->xyz_from_lanes[k][i];
+        }
+    }
+    if (search_choices(fit, added, out, added_out) < HUGE_VAL) {
         derive_albedo(out);
     } else {
         choose_few(fit, out);
+        out->rms_error = INFINITY;
+        memcpy(added_out->rgb_from_bands, out->rgb_from_bands, sizeof out->rgb_from_bands);
     }
     for (int r = 0; r < BAND_COUNT; r++) {
         out->nm[r] = fit->optics->wavelength_nm[out->lane[r]];
     }
+}
+
+void band_fit_choose(const struct band_fit *fit, struct bands *out)
+{
+    struct band_fit none = {.optics = fit->optics};
+    struct added_bands unused;
+    band_fit_choose_both(fit, &none, out, &unused);
 }
 
 void bands_xyz(const struct bands *bands, const lanes *radiance, float scale, float *texel)

@@ -41,6 +41,16 @@ void band_fit_add_surfaces(struct band_fit *fit, const lanes *light);
 void band_fit_add_products(struct band_fit *fit, const struct solution *solution);
 // Tries every choice of four wavelengths: least squares of each through the Gram matrix.
 void band_fit_choose(const struct band_fit *fit, struct bands *out);
+// The same four wavelengths for two kinds of light: `fit` of the ground's, `added` of what the air
+// adds, which has a matrix of its own.
+struct added_bands {
+    float rgb_from_bands[3][BAND_COUNT];
+    // The likeliest bands of a colour; the matrix above gives the colour back.
+    float bands_from_rgb[BAND_COUNT][3];
+    double rms_error;
+};
+void band_fit_choose_both(const struct band_fit *fit, const struct band_fit *added,
+                          struct bands *out, struct added_bands *added_out);
 
 // Colour in cd m^-2 (X, Y, Z, 0) of radiance per unit irradiance of the star, times `scale`.
 void bands_xyz(const struct bands *bands, const lanes *radiance, float scale, float *texel);

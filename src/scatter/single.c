@@ -9,7 +9,7 @@
 #include <string.h>
 
 // The integrand has a kink where the ray leaves the planet's shadow, elsewhere for each star.
-static const double NODES_PER_SHELL = 96;
+static const double NODES_PER_SHELL = 64;
 static const double MORE_NODES_PER_DEPTH = 12; // of vertical optical depth, up to 8 of it
 static const double DEPTH_NODES_PER_SHELL = 32;
 // Stars as low as this many dips of the horizon (seen from the top) still light the far end of a
@@ -175,38 +175,57 @@ static void gather(const struct single_tables *t, const struct table_ray *at, in
     transport_add_single(&t->sun, &w->ray, &family, &channels, out, w->scratch);
 }
 
-// The sky as seen from the ground and from the top, for angles from the star of 30 to 150 degrees,
-// and ground of many colours behind air: what pictures show.
-static void choose_bands(struct single_tables *t, struct single_worker *w)
+// Spectra of the light that the air adds, for angles from the star of 30 to 150 degrees: the sky and
+// ground seen from some altitudes; rays that meet the ground near its surface are short ways.
+static void add_air(struct single_tables *t, struct single_worker *w, int suns,
+                    struct band_fit *fit)
 {
-    static const int suns_deg[] = {0, 40, 60, 70, 80, 85, 88, 90, 92, 94};
-    enum { SUNS = sizeof suns_deg / sizeof *suns_deg, RAYS = 8 };
-    static const double views[RAYS] = {0, 0.3, 0.6, 0.8, 0.95, 0, 0.5, 0.9};
-    struct band_fit fit;
-    band_fit_init(&fit, t->optics);
-    for (int s = 0; s < SUNS; s++) {
-        w->sun_mu[s] = (float)cos(suns_deg[s] * M_PI / 180);
-        lanes star;
-        sunlight_at(&t->sun, t->optics->ground_radius_m, (double)w->sun_mu[s], &star);
-        band_fit_add_surfaces(&fit, &star);
-    }
-    for (int k = 0; k < 2 * RAYS; k++) {
-        const bool meets_ground = k % RAYS > 4;
-        const double altitude_m = altitude_at(t->optics, k < RAYS ? 0 : 1);
+    static const double heights[] = {0, 0.15, 0.4, 1};
+    static const double views[] = {0, 0.3, 0.6, 0.8, 0.95};
+    enum { HEIGHTS = sizeof heights / sizeof *heights, VIEWS = sizeof views / sizeof *views };
+    for (int k = 0; k < HEIGHTS * VIEWS * 2; k++) {
+        const double altitude_m = altitude_at(t->optics, heights[k / 2 / VIEWS]);
         const struct table_ray ray =
-            make_table_ray(t->optics, fmax(altitude_m, LOWEST_M), views[k % RAYS], meets_ground);
-        gather(t, &ray, SUNS, w);
-        for (int s = 0; s < SUNS; s++) {
+            make_table_ray(t->optics, fmax(altitude_m, LOWEST_M), views[k / 2 % VIEWS], k % 2 == 0);
+        gather(t, &ray, suns, w);
+        for (int s = 0; s < suns; s++) {
             for (int angle = 30; angle <= 150; angle += 60) {
                 lanes sum = {0};
                 for (int c = 0; c < t->channels; c++) {
                     sum += w->radiance[c][s] * (float)single_phase(t, c, cos(angle * M_PI / 180));
                 }
-                band_fit_add(&fit, &sum);
+                band_fit_add(fit, &sum);
             }
         }
     }
-    band_fit_choose(&fit, &t->bands);
+}
+
+static void choose_bands(const trl_context *ctx, struct single_tables *t, struct single_worker *w)
+{
+    static const int suns_deg[] = {0, 40, 60, 70, 80, 85, 88, 90, 92, 94};
+    enum { SUNS = sizeof suns_deg / sizeof *suns_deg };
+    struct band_fit ground;
+    struct band_fit air;
+    band_fit_init(&ground, t->optics);
+    band_fit_init(&air, t->optics);
+    for (int s = 0; s < SUNS; s++) {
+        w->sun_mu[s] = (float)cos(suns_deg[s] * M_PI / 180);
+        lanes star;
+        sunlight_at(&t->sun, t->optics->ground_radius_m, (double)w->sun_mu[s], &star);
+        band_fit_add_surfaces(&ground, &star);
+    }
+    add_air(t, w, SUNS, &air);
+    band_fit_choose_both(&ground, &air, &t->bands, &t->added);
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < LANES; i++) {
+            t->rgb_from_lanes[k][i] = (float)air.rgb_from_lanes[k][i];
+        }
+    }
+    trl_log(ctx, TRL_LOG_DEBUG, TRL_LOG_ITEM_SOLVER,
+            "single scattering: bands at %.0f, %.0f, %.0f, %.0f nm reproduce colours of ground to "
+            "%.2f %%, of air to %.2f %%",
+            t->bands.nm[0], t->bands.nm[1], t->bands.nm[2], t->bands.nm[3],
+            100 * t->bands.rms_error, 100 * t->added.rms_error);
 }
 
 static void store_bands(const struct bands *bands, const lanes *value, double scale, float *texel)
@@ -214,6 +233,20 @@ static void store_bands(const struct bands *bands, const lanes *value, double sc
     for (int b = 0; b < BAND_COUNT; b++) {
         texel[b] = (float)((double)(*value)[bands->lane[b]] * scale);
     }
+}
+
+static void store_colour(const struct single_tables *t, const lanes *value, double scale,
+                         float *texel)
+{
+    for (int k = 0; k < 3; k++) {
+        const lanes product = t->rgb_from_lanes[k] * *value;
+        float sum = 0;
+        for (int i = 0; i < LANES; i++) {
+            sum += product[i];
+        }
+        texel[k] = sum * (float)scale;
+    }
+    texel[3] = 0;
 }
 
 static void fill_ray(struct single_tables *t, struct single_worker *w, int height, int view)
@@ -231,7 +264,7 @@ static void fill_ray(struct single_tables *t, struct single_worker *w, int heigh
         for (int s = 0; s < SINGLE_SUNS; s++) {
             const size_t texel =
                 ((size_t)height * SINGLE_SUNS + (size_t)s) * SINGLE_VIEWS + (size_t)view;
-            store_bands(&t->bands, &w->radiance[c][s], scale, t->scattered[c] + texel * BAND_COUNT);
+            store_colour(t, &w->radiance[c][s], scale, t->scattered[c] + texel * BAND_COUNT);
         }
     }
 }
@@ -352,7 +385,7 @@ static trl_result compute(const trl_context *ctx, struct single_tables *t)
         result = transport_scratch_create(ctx, SINGLE_SUNS, 1, &workers[n].scratch);
     }
     if (result == TRL_OK) {
-        choose_bands(t, &workers[0]);
+        choose_bands(ctx, t, &workers[0]);
         result = fill_tables(ctx, t, workers, worker_count);
     }
     for (int n = 0; workers && n < worker_count; n++) {

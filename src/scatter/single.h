@@ -7,9 +7,9 @@
 // of the ray. There is no azimuth: the star is taken in the plane of ray and zenith, on the ray's
 // side. Phase functions are left out and applied per pixel, with the true angle.
 //
-// Constituents with the same phase function share a channel. Texels hold four bands (bands.h) per
-// unit irradiance of the star: the second look-up is multiplied by a transmittance, which colours
-// cannot be. docs/decisions/017-single-in-bands.md
+// Constituents with the same phase function share a channel. What is only added is a colour, from
+// all wavelengths; what is multiplied is in four bands (bands.h) per unit irradiance of the star.
+// docs/decisions/017-two-look-ups-in-colour.md
 
 #include "scatter/bands.h"
 
@@ -29,15 +29,18 @@ struct single_tables {
     struct ray_rules *rules;
     struct sunlight sun;
     struct bands bands;
+    struct added_bands added;
+    lanes rgb_from_lanes[3]; // exact, in cd m^-2 of radiance per unit irradiance
     int channels;
     int channel[MEDIUM_MAX_CONSTITUENTS];   // of each constituent; -1: it does not scatter
     double weight[MEDIUM_MAX_CONSTITUENTS]; // of its phase function in its channel; sum 1 in each
     double sun_centre, sun_width, sun_first, sun_last; // see sky_map_sun
-    // By single_map.glsl, all [..][BAND_COUNT] floats.
-    float *scattered[SINGLE_CHANNELS]; // [height][sun][view], phase functions left out
-    float *depth;                      // [height][view]: optical depth to the top, rays that miss
-    float *light;                      // [height][sun]: direct light, by sky_map_sunlight
-    float *medium; // [1 + channels][altitude]: extinction, then scattering, per m, by single_height
+    // By single_map.glsl. Four floats a texel:
+    float *scattered[SINGLE_CHANNELS]; // [height][sun][view]: linear sRGB, cd m^-2, and 0, without
+                                       // the phase function (cd m^-2 sr)
+    float *depth;  // [height][view]: optical depth to the top, rays that miss the ground; bands
+    float *light;  // [height][sun]: direct light, by sky_map_sunlight; bands
+    float *medium; // [1 + channels][altitude]: extinction, then scattering, per m; bands
 };
 
 // Computes all. Blocks for about half a second. TRL_ERROR_MEMORY, TRL_ERROR_CANCELLED.

@@ -3,13 +3,14 @@
 // The model of Schafhitzel, Falk and Ertl 2007: one scattering, tabulated once for all eyes and
 // suns (scatter/single.h), looked up per pixel. Nothing is computed for a frame.
 //
-//     scattered  3D RGBA32F  view x sun x height, light from there to the ray's end; each channel
+//     scattered  3D RGBA32F  view x sun x height, light from there to the ray's end: linear sRGB,
+//                            one texture for each phase function, which is left out
 //     depth      2D RGBA32F  view x height, optical depth to the top
 //     light      2D RGBA32F  sun x height, direct light
 //     medium     2D RGBA32F  height x (extinction, scattering of each channel), per m
 //     phase      2D RGBA32F  sine of half the angle, the phase functions of the channels
 //
-// All in four bands per unit irradiance of the star (scatter/bands.h) but the last.
+// Depth, light and medium are in four bands per unit irradiance of the star (scatter/bands.h).
 #include "scatter/single.h"
 #include "sky/pixels.h"
 
@@ -184,6 +185,22 @@ static trl_result single_prepare(void *self, const struct sky_view *view)
     return TRL_OK;
 }
 
+// Bands of the light that the air adds; those of the ground's are sky_set_bands'.
+static void set_added(const struct single *sky, struct gpu_program *program)
+{
+    const struct added_bands *added = &sky->tables.added;
+    float rgb_from_added[12];
+    float added_from_rgb[12];
+    for (int k = 0; k < 3; k++) {
+        for (int r = 0; r < BAND_COUNT; r++) {
+            rgb_from_added[4 * k + r] = added->rgb_from_bands[k][r];
+            added_from_rgb[4 * k + r] = added->bands_from_rgb[r][k];
+        }
+    }
+    gpu_program_set_vec4s(program, "u_rgb_from_added", rgb_from_added, 3);
+    gpu_program_set_vec4s(program, "u_added_from_rgb", added_from_rgb, 3);
+}
+
 static void set_maps(const struct single *sky, struct gpu_program *program)
 {
     const struct single_tables *t = &sky->tables;
@@ -208,6 +225,7 @@ static trl_result draw_kind(struct single *sky, struct gpu_program *program, enu
                             const struct sky_view *view)
 {
     sky_set_bands(program, &sky->tables.bands, sky->optics, view->surface.lights_cd_m2);
+    set_added(sky, program);
     set_maps(sky, program);
     return sky_pixels_draw(&sky->pixels, program, kind, view);
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // The air of the model `single`, by Schafhitzel 2007: light scattered once, looked up in a 3D table
-// over altitude, star and view. Lengths in m; light in four bands per unit irradiance of the star.
+// over altitude, star and view. Lengths in m. Light that the air adds is linear sRGB in cd m^-2, what
+// it leaves of other light is in four bands.
 #ifndef SKY_SINGLE_AIR_GLSL
 #define SKY_SINGLE_AIR_GLSL
 
@@ -44,20 +45,20 @@ vec4 phase_of(float nu)
 #endif
 }
 
-vec4 join_channels(vec3 at, vec4 phase)
+vec3 join_channels(vec3 at, vec4 phase)
 {
-    vec4 sum = vec4(0.0);
+    vec3 sum = vec3(0.0);
 #if CHANNEL_COUNT > 0
-    sum += textureLod(u_scattered0, at, 0.0) * phase.x;
+    sum += textureLod(u_scattered0, at, 0.0).rgb * phase.x;
 #endif
 #if CHANNEL_COUNT > 1
-    sum += textureLod(u_scattered1, at, 0.0) * phase.y;
+    sum += textureLod(u_scattered1, at, 0.0).rgb * phase.y;
 #endif
 #if CHANNEL_COUNT > 2
-    sum += textureLod(u_scattered2, at, 0.0) * phase.z;
+    sum += textureLod(u_scattered2, at, 0.0).rgb * phase.z;
 #endif
 #if CHANNEL_COUNT > 3
-    sum += textureLod(u_scattered3, at, 0.0) * phase.w;
+    sum += textureLod(u_scattered3, at, 0.0).rgb * phase.w;
 #endif
     return sum;
 }
@@ -95,7 +96,7 @@ float way_to_end(Ray ray, Point p)
 }
 
 // The look-up: light from a point to the far end of its ray, as if there were no terrain.
-vec4 scattered_beyond(Ray ray, Point p, vec4 phase)
+vec3 scattered_beyond(Ray ray, Point p, vec4 phase)
 {
     float horizon = single_horizon(p.altitude_m, u_planet.x);
     float way = way_to_end(ray, p);

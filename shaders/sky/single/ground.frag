@@ -7,10 +7,10 @@
 // validate: CHANNEL_COUNT 4; SURFACE
 
 #include "sky/ground.glsl"
+#include "sky/single/colour.glsl"
 #include "sky/single/near.glsl"
 
-uniform vec4 u_rgb_from_bands[3]; // rows
-uniform vec4 u_ground_albedo;     // in the bands, of the bare sphere
+uniform vec4 u_ground_albedo; // in the bands, of the bare sphere
 
 #ifdef SURFACE
 uniform vec4 u_bands_from_rgb[3]; // columns
@@ -50,7 +50,5 @@ void main()
     Ray ray;
     Ground ground = find_ground(ray);
     Air air = air_before(ray, ground.distance_m, ground.altitude_m);
-    vec4 bands = light_ground(ray, ground) * air.transmittance + air.scattered;
-    out_radiance = vec4(dot(u_rgb_from_bands[0], bands), dot(u_rgb_from_bands[1], bands),
-                        dot(u_rgb_from_bands[2], bands), 1.0);
+    out_radiance = join_light(light_ground(ray, ground) * air.transmittance, air.scattered);
 }

@@ -6,10 +6,12 @@
 
 #include "sky/single/air.glsl"
 
-uniform sampler2D u_light;   // direct light of the star: suns x heights
-uniform sampler2D u_medium;  // altitudes x rows: extinction, scattering of each channel, per m
-uniform vec4 u_light_texels; // suns, heights; altitudes and rows of the medium
-uniform float u_light_soft;  // of sky_map_sunlight
+uniform sampler2D u_light;        // direct light of the star: suns x heights
+uniform sampler2D u_medium;       // altitudes x rows: extinction, scattering of each channel, per m
+uniform vec4 u_light_texels;      // suns, heights; altitudes and rows of the medium
+uniform vec4 u_rgb_from_added[3]; // rows, of light that the air adds
+uniform vec4 u_added_from_rgb[3]; // columns
+uniform float u_light_soft;       // of sky_map_sunlight
 
 // Gauss-Legendre on [0, 1], three points: nodes, weights, and the weights up to each node.
 const vec3 NODES = vec3(0.112701665, 0.5, 0.887298335);
@@ -20,13 +22,19 @@ const vec3 UP_TO_2 = vec3(0.267988333, 0.480421112, 0.138888889);
 
 // The air's part in the picture.
 struct Air {
-    vec4 scattered;
-    vec4 transmittance;
+    vec3 scattered;     // linear sRGB
+    vec4 transmittance; // in the bands
 };
 
 // Below the first of these parts of the way's whole optical depth samples are taken, above the
 // second look-ups, between them both.
 const vec2 CROSSING = vec2(0.15, 0.4);
+
+vec3 added_colour(vec4 bands)
+{
+    return vec3(dot(u_rgb_from_added[0], bands), dot(u_rgb_from_added[1], bands),
+                dot(u_rgb_from_added[2], bands));
+}
 
 // Direct light of the star at a point, averaged over its disc.
 vec4 star_light(Point p)
@@ -77,13 +85,14 @@ Air sample_air(Ray ray, Point from, float way_m, vec4 phase)
         extinction[k] = medium_at(p.altitude_m, 0) * way_m;
         source[k] = star_light(p) * scattering_at(p.altitude_m, phase) * (way_m * WEIGHTS[k]);
     }
+    vec4 light = source[0] * exp(-extinction[0] * UP_TO_0.x - extinction[1] * UP_TO_0.y -
+                                 extinction[2] * UP_TO_0.z) +
+                 source[1] * exp(-extinction[0] * UP_TO_1.x - extinction[1] * UP_TO_1.y -
+                                 extinction[2] * UP_TO_1.z) +
+                 source[2] * exp(-extinction[0] * UP_TO_2.x - extinction[1] * UP_TO_2.y -
+                                 extinction[2] * UP_TO_2.z);
     Air air;
-    air.scattered = source[0] * exp(-extinction[0] * UP_TO_0.x - extinction[1] * UP_TO_0.y -
-                                    extinction[2] * UP_TO_0.z) +
-                    source[1] * exp(-extinction[0] * UP_TO_1.x - extinction[1] * UP_TO_1.y -
-                                    extinction[2] * UP_TO_1.z) +
-                    source[2] * exp(-extinction[0] * UP_TO_2.x - extinction[1] * UP_TO_2.y -
-                                    extinction[2] * UP_TO_2.z);
+    air.scattered = added_colour(light);
     air.transmittance =
         exp(-extinction[0] * WEIGHTS.x - extinction[1] * WEIGHTS.y - extinction[2] * WEIGHTS.z);
     return air;
@@ -109,8 +118,12 @@ Air air_before(Ray ray, float distance_m, float altitude_m)
     air.transmittance = mix(sampled.transmittance, exp(-depth), looked_up);
     air.scattered = scattered_beyond(ray, eye, phase);
 #ifdef SURFACE
-    air.scattered -= exp(-depth) * scattered_beyond(ray, ground, phase);
-    air.scattered = mix(sampled.scattered, max(air.scattered, 0.0), looked_up);
+    // S_g is a colour: its likeliest bands are attenuated, and what they lose is taken away.
+    vec3 beyond = scattered_beyond(ray, ground, phase);
+    vec4 bands = u_added_from_rgb[0] * beyond.r + u_added_from_rgb[1] * beyond.g +
+                 u_added_from_rgb[2] * beyond.b;
+    air.scattered += added_colour((1.0 - exp(-depth)) * bands) - beyond;
+    air.scattered = mix(sampled.scattered, air.scattered, looked_up);
 #endif
     return air;
 }

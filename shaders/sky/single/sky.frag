@@ -7,8 +7,7 @@
 
 #include "sky/disc.glsl"
 #include "sky/single/air.glsl"
-
-uniform vec4 u_rgb_from_bands[3]; // rows
+#include "sky/single/colour.glsl"
 
 in vec2 v_uv;
 
@@ -18,11 +17,10 @@ void main()
 {
     Ray ray = make_pixel_ray(v_uv);
     ray.meets_ground = false; // what sort.frag has found counts, in case of rounding
-    vec4 bands = scattered_beyond(ray, begin_of(ray), phase_of(ray.nu));
-    bands *= ray.chord_m > 0.0 ? 1.0 : 0.0;
+    vec3 added = scattered_beyond(ray, begin_of(ray), phase_of(ray.nu));
+    vec4 sent = vec4(0.0);
 #ifdef STAR
-    bands += star_disc(ray) * transmittance_to_space(ray);
+    sent = star_disc(ray) * transmittance_to_space(ray);
 #endif
-    out_radiance = vec4(dot(u_rgb_from_bands[0], bands), dot(u_rgb_from_bands[1], bands),
-                        dot(u_rgb_from_bands[2], bands), 1.0);
+    out_radiance = join_light(sent, ray.chord_m > 0.0 ? added : vec3(0.0));
 }
