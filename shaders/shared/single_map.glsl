@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 //
-// Where a point, a ray and a star lie in the tables of the model `single` (Schafhitzel 2007, Section
-// 4.1, with coordinates that put the texels where the light changes). C fills the tables, the sky
-// pass looks them up. Coordinates are in [0, 1], lengths in m. Views are those of sky_map.glsl:
-// sky_map_view for rays that miss the ground, sky_map_ground_row for those that meet it.
+// Where a point, a ray and a star lie in the tables of the model `single` (Schafhitzel 2007,
+// Section 4.1, with coordinates that put the texels where the light changes). C fills the tables,
+// the sky pass looks them up. Coordinates are in [0, 1], lengths in m. Views are those of
+// sky_map.glsl: sky_map_view for rays that miss the ground, sky_map_ground_row for those that meet
+// it.
 #ifndef SHARED_SINGLE_MAP_GLSL
 #define SHARED_SINGLE_MAP_GLSL
 

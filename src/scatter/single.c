@@ -175,8 +175,8 @@ static void gather(const struct single_tables *t, const struct table_ray *at, in
     transport_add_single(&t->sun, &w->ray, &family, &channels, out, w->scratch);
 }
 
-// Spectra of the light that the air adds, for angles from the star of 30 to 150 degrees: the sky and
-// ground seen from some altitudes; rays that meet the ground near its surface are short ways.
+// Spectra of the light that the air adds, for angles from the star of 30 to 150 degrees: the sky
+// and ground seen from some altitudes; rays that meet the ground near its surface are short ways.
 static void add_air(struct single_tables *t, struct single_worker *w, int suns,
                     struct band_fit *fit)
 {

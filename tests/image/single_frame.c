@@ -21,7 +21,7 @@
 
 enum { WIDTH = 96, HEIGHT = 54 };
 
-// The table's own errors: 1 to 2 % of colour by four bands, the rest interpolation.
+// As of the spectral model's frames: light of the ground in four bands, shadow's edge in twilight.
 static const double MEDIAN_LIMIT = 0.02;
 // One pixel in twenty may be worse, up to this: where the limb or twilight changes within a texel.
 static const double MOST_LIMIT = 0.06;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // The air of the model `single`, by Schafhitzel 2007: light scattered once, looked up in a 3D table
-// over altitude, star and view. Lengths in m. Light that the air adds is linear sRGB in cd m^-2, what
-// it leaves of other light is in four bands.
+// over altitude, star and view. Lengths in m. Light that the air adds is linear sRGB in cd m^-2,
+// what it leaves of other light is in four bands.
 #ifndef SKY_SINGLE_AIR_GLSL
 #define SKY_SINGLE_AIR_GLSL
 
