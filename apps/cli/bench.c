@@ -23,6 +23,8 @@ static const struct bench benches[] = {
      bench_run_sky_frame, NULL},
     {"start", "from program start to the first finished picture, caches warm", bench_run_start,
      NULL},
+    {"schafhitzel-table2", "single scattering on spheres: 3D table against integrals at vertices",
+     bench_run_schafhitzel_table2, "Schafhitzel, Falk and Ertl 2007, Table 2"},
 };
 enum { BENCH_COUNT = sizeof benches / sizeof benches[0] };
 _Static_assert((int)BENCH_COUNT <= (int)OPTIONS_MAX_POSITIONALS, "all can be named at once");

@@ -28,5 +28,6 @@ trl_result bench_run_solver(const struct bench_job *job);
 trl_result bench_run_tables(const struct bench_job *job);
 trl_result bench_run_sky_frame(const struct bench_job *job);
 trl_result bench_run_start(const struct bench_job *job);
+trl_result bench_run_schafhitzel_table2(const struct bench_job *job);
 
 #endif // CLI_BENCH_H

@@ -136,6 +136,27 @@ TRL_API TRL_MUST_USE trl_result trl_renderer_set_sky_model(trl_renderer *rendere
 /// The model that frames are drawn with.
 TRL_API trl_sky_model trl_renderer_sky_model(const trl_renderer *renderer);
 
+/// How TRL_SKY_SINGLE finds the light of air and ground of a scene without surface layers: as every
+/// model does, or on two spheres as in Schafhitzel 2007, to repeat its Table 2.
+typedef enum trl_single_drawing {
+    TRL_SINGLE_PIXELS,  ///< looked up for every pixel (default)
+    TRL_SINGLE_SPHERES, ///< looked up for every fragment of tessellated spheres
+    TRL_SINGLE_VERTICES ///< integrated at every vertex of the same spheres, without the 3D table
+} trl_single_drawing;
+
+enum { TRL_SINGLE_MAX_SIDE = 1024, TRL_SINGLE_MAX_STEPS = 1000 };
+
+/// Sets it from the next frame on. Spheres show no star, and their outlines have corners; the other
+/// models are not touched.
+/// @param side   each sphere has side x side vertices, [3, TRL_SINGLE_MAX_SIDE]; not looked at for
+///               TRL_SINGLE_PIXELS
+/// @param steps  of each vertex' integral, [1, TRL_SINGLE_MAX_STEPS]; looked at only for
+///               TRL_SINGLE_VERTICES
+/// @return TRL_OK; TRL_ERROR_INVALID (an argument; the scene has surface layers)
+TRL_API TRL_MUST_USE trl_result trl_renderer_set_single_drawing(trl_renderer *renderer,
+                                                                trl_single_drawing drawing,
+                                                                uint32_t side, uint32_t steps);
+
 /// What becomes of one constituent of a scene's atmosphere.
 typedef struct trl_constituent_change {
     size_t constituent; ///< index in the scene

@@ -5,9 +5,7 @@
 #ifndef SKY_GROUND_GLSL
 #define SKY_GROUND_GLSL
 
-#include "sky/ray.glsl"
-
-in vec2 v_uv;
+#include "sky/fragment.glsl"
 
 #ifdef SURFACE
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
@@ -49,7 +47,7 @@ Ground find_ground(out Ray ray)
 Ground find_ground(out Ray ray)
 {
     Ground ground;
-    ray = make_pixel_ray(v_uv);
+    ray = fragment_ray();
     ray.meets_ground = true; // what sort.frag has found counts, in case of rounding
     ray.end_m = ray.ground_m;
     ground.distance_m = ray.ground_m;

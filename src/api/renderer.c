@@ -173,6 +173,30 @@ trl_result trl_renderer_set_sky_model(trl_renderer *renderer, trl_sky_model mode
     return result == TRL_OK ? frame_set_sky_model(&renderer->frame, model) : result;
 }
 
+trl_result trl_renderer_set_single_drawing(trl_renderer *renderer, trl_single_drawing drawing,
+                                           uint32_t side, uint32_t steps)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    struct frame *frame = &renderer->frame;
+    const bool has_integrals = drawing == TRL_SINGLE_VERTICES;
+    TRL_REQUIRE(renderer->ctx, (unsigned)drawing <= TRL_SINGLE_VERTICES);
+    if (drawing == TRL_SINGLE_PIXELS) {
+        frame->spheres = (struct sky_spheres){0};
+        return TRL_OK;
+    }
+    TRL_REQUIRE(renderer->ctx, side >= 3 && side <= TRL_SINGLE_MAX_SIDE);
+    TRL_REQUIRE(renderer->ctx, !has_integrals || (steps >= 1 && steps <= TRL_SINGLE_MAX_STEPS));
+    if (!frame->ground.is_bare) {
+        return trl_fail(
+            renderer->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+            "the model \"single\" draws spheres only for scenes without surface layers");
+    }
+    frame->spheres = (struct sky_spheres){side, has_integrals, steps};
+    return TRL_OK;
+}
+
 trl_sky_model trl_renderer_sky_model(const trl_renderer *renderer)
 {
     return renderer ? renderer->frame.sky_model : TRL_SKY_SPECTRAL;

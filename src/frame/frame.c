@@ -196,6 +196,7 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
     const struct sky_view view = {.camera = camera,
                                   .highest_m = ground_highest_m(&frame->ground),
                                   .surface = ground_surface(&frame->ground),
+                                  .spheres = frame->spheres,
                                   .target = &frame->radiance_target};
     struct sky *sky = &frame->skies[frame->sky_model];
     if (result == TRL_OK) {

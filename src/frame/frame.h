@@ -39,6 +39,7 @@ struct frame {
     struct medium medium;         // the scene's, with the atmosphere that was changed to; a copy
     struct sky skies[SKY_MODELS]; // by trl_sky_model; made when first asked for
     trl_sky_model sky_model;      // that frames are drawn with
+    struct sky_spheres spheres;
     uint32_t wavelengths;
     struct exposure exposure;
     struct tone tone;

@@ -81,9 +81,8 @@ void sky_set_bands(struct gpu_program *program, const struct bands *bands,
                  (double)(*albedo)[bands->lane[3]]);
 }
 
-// The uniforms of ray.glsl.
-static void set_view(const struct sky_pixels *pixels, struct gpu_program *program,
-                     const struct sky_view *view)
+void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *program,
+                         const struct sky_view *view)
 {
     const struct camera *camera = view->camera;
     const double ground = pixels->ground_radius_m;
@@ -151,7 +150,7 @@ trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct sky_view *vie
                                   .state = {.writes_depth = true, .hides_color = true},
                                   .clears_color = true,
                                   .color = {0, 0, 0, 1}};
-    set_view(pixels, program, view);
+    sky_pixels_set_view(pixels, program, view);
     if (!is_bare) {
         gpu_program_set_texture(program, "u_position", view->surface.position);
     }
@@ -170,7 +169,7 @@ trl_result sky_pixels_draw(const struct sky_pixels *pixels, struct gpu_program *
             return TRL_OK;
         }
     }
-    set_view(pixels, program, view);
+    sky_pixels_set_view(pixels, program, view);
     if (kind == SKY_KIND_GROUND) {
         pass.state.depth = GPU_DEPTH_FARTHER;
         if (!sky_view_is_bare(view)) {

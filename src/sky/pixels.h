@@ -33,6 +33,10 @@ bool sky_view_is_bare(const struct sky_view *view);
 // The eye's distance from the centre, never below the reference sphere.
 double sky_pixels_eye_radius(const struct sky_pixels *pixels, const struct camera *camera);
 
+// The uniforms of ray.glsl, for programs that are not drawn by sky_pixels_draw.
+void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *program,
+                         const struct sky_view *view);
+
 // First of all: clears the target and marks each pixel's kind.
 TRL_MUST_USE trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct sky_view *view);
 

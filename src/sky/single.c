@@ -13,6 +13,7 @@
 // Depth, light and medium are in four bands per unit irradiance of the star (scatter/bands.h).
 #include "scatter/single.h"
 #include "sky/pixels.h"
+#include "sky/single_spheres.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -28,6 +29,7 @@ struct single {
     struct gpu_program air, star, ground_bare, ground_surface;
     struct gpu_texture scattered[SINGLE_CHANNELS];
     struct gpu_texture depth, light, medium, phase;
+    struct single_spheres spheres; // when they are asked for
 };
 
 static const char *const SCATTERED_NAMES[] = {"u_scattered0", "u_scattered1", "u_scattered2",
@@ -144,6 +146,7 @@ static void single_destroy(void **self)
     struct single *sky = *self;
     const trl_context *ctx = sky->ctx;
     sky_pixels_finish(&sky->pixels);
+    single_spheres_finish(&sky->spheres);
     gpu_program_finish(&sky->air);
     gpu_program_finish(&sky->star);
     gpu_program_finish(&sky->ground_bare);
@@ -180,9 +183,10 @@ static trl_result single_create(const struct sky_desc *desc, void **self)
 
 static trl_result single_prepare(void *self, const struct sky_view *view)
 {
-    (void)self;
-    (void)view;
-    return TRL_OK;
+    struct single *sky = self;
+    return view->spheres.side == 0 ? TRL_OK
+                                   : single_spheres_prepare(&sky->spheres, sky->gpu, &view->spheres,
+                                                            sky->tables.channels);
 }
 
 // Bands of the light that the air adds; those of the ground's are sky_set_bands'.
@@ -221,18 +225,42 @@ static void set_maps(const struct single *sky, struct gpu_program *program)
     gpu_program_set_texture(program, "u_phase", &sky->phase);
 }
 
-static trl_result draw_kind(struct single *sky, struct gpu_program *program, enum sky_kind kind,
-                            const struct sky_view *view)
+static void set_uniforms(const struct single *sky, struct gpu_program *program,
+                         const struct sky_view *view)
 {
     sky_set_bands(program, &sky->tables.bands, sky->optics, view->surface.lights_cd_m2);
     set_added(sky, program);
     set_maps(sky, program);
+}
+
+static trl_result draw_kind(struct single *sky, struct gpu_program *program, enum sky_kind kind,
+                            const struct sky_view *view)
+{
+    set_uniforms(sky, program, view);
     return sky_pixels_draw(&sky->pixels, program, kind, view);
+}
+
+static trl_result draw_sphere(struct single *sky, struct gpu_program *program,
+                              const struct sky_view *view)
+{
+    set_uniforms(sky, program, view);
+    return single_spheres_draw(&sky->spheres, &sky->pixels, program, view);
+}
+
+// Air and ground only: there is no star.
+static trl_result draw_spheres(struct single *sky, const struct sky_view *view)
+{
+    const int how = view->spheres.has_integrals ? 1 : 0;
+    const trl_result result = draw_sphere(sky, &sky->spheres.air[how], view);
+    return result == TRL_OK ? draw_sphere(sky, &sky->spheres.ground[how], view) : result;
 }
 
 static trl_result single_draw(void *self, const struct sky_view *view)
 {
     struct single *sky = self;
+    if (view->spheres.side > 0) {
+        return draw_spheres(sky, view);
+    }
     struct gpu_program *ground = sky_view_is_bare(view) ? &sky->ground_bare : &sky->ground_surface;
     trl_result result = sky_pixels_sort(&sky->pixels, view);
     if (result == TRL_OK) {

@@ -27,11 +27,19 @@ struct sky_surface {
     double lights_cd_m2; // luminance of white lights
 };
 
+// How the model single draws a bare sphere.
+struct sky_spheres {
+    uint32_t side;      // vertices a side of each sphere; 0: by pixels, as all else is drawn
+    bool has_integrals; // the vertices integrate, else fragments look up
+    uint32_t steps;     // of each integral
+};
+
 // One picture.
 struct sky_view {
     const struct camera *camera;
     double highest_m; // altitude of the highest ground
     struct sky_surface surface;
+    struct sky_spheres spheres;
     const struct gpu_target *target; // with a depth texture that nobody else uses meanwhile
 };
 

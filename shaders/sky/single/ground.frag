@@ -5,10 +5,15 @@
 // validate: CHANNEL_COUNT 2
 // validate: CHANNEL_COUNT 0
 // validate: CHANNEL_COUNT 4; SURFACE
+// validate: CHANNEL_COUNT 2; SPHERE
+// validate: CHANNEL_COUNT 2; SPHERE; INTEGRAL
 
 #include "sky/ground.glsl"
 #include "sky/single/colour.glsl"
 #include "sky/single/near.glsl"
+#ifdef INTEGRAL
+#include "sky/single/vertex_light.glsl"
+#endif
 
 uniform vec4 u_ground_albedo; // in the bands, of the bare sphere
 
@@ -49,6 +54,10 @@ void main()
 {
     Ray ray;
     Ground ground = find_ground(ray);
+#ifdef INTEGRAL
+    Air air = Air(vertex_light(phase_of(ray.nu)), v_transmittance);
+#else
     Air air = air_before(ray, ground.distance_m, ground.altitude_m);
+#endif
     out_radiance = join_light(light_ground(ray, ground) * air.transmittance, air.scattered);
 }

@@ -5,11 +5,11 @@
 #define SKY_SINGLE_NEAR_GLSL
 
 #include "sky/single/air.glsl"
+#include "sky/single/colour.glsl"
 
 uniform sampler2D u_light;        // direct light of the star: suns x heights
 uniform sampler2D u_medium;       // altitudes x rows: extinction, scattering of each channel, per m
 uniform vec4 u_light_texels;      // suns, heights; altitudes and rows of the medium
-uniform vec4 u_rgb_from_added[3]; // rows, of light that the air adds
 uniform vec4 u_added_from_rgb[3]; // columns
 uniform float u_light_soft;       // of sky_map_sunlight
 
@@ -29,12 +29,6 @@ struct Air {
 // Below the first of these parts of the way's whole optical depth samples are taken, above the
 // second look-ups, between them both.
 const vec2 CROSSING = vec2(0.15, 0.4);
-
-vec3 added_colour(vec4 bands)
-{
-    return vec3(dot(u_rgb_from_added[0], bands), dot(u_rgb_from_added[1], bands),
-                dot(u_rgb_from_added[2], bands));
-}
 
 // Direct light of the star at a point, averaged over its disc.
 vec4 star_light(Point p)

@@ -4,20 +4,28 @@
 // validate: CHANNEL_COUNT 2
 // validate: CHANNEL_COUNT 0; STAR
 // validate: CHANNEL_COUNT 4; STAR
+// validate: CHANNEL_COUNT 2; SPHERE
+// validate: CHANNEL_COUNT 2; SPHERE; INTEGRAL
 
 #include "sky/disc.glsl"
+#include "sky/fragment.glsl"
 #include "sky/single/air.glsl"
 #include "sky/single/colour.glsl"
-
-in vec2 v_uv;
+#ifdef INTEGRAL
+#include "sky/single/vertex_light.glsl"
+#endif
 
 layout(location = 0) out vec4 out_radiance;
 
 void main()
 {
-    Ray ray = make_pixel_ray(v_uv);
+    Ray ray = fragment_ray();
     ray.meets_ground = false; // what sort.frag has found counts, in case of rounding
+#ifdef INTEGRAL
+    vec3 added = vertex_light(phase_of(ray.nu));
+#else
     vec3 added = scattered_beyond(ray, begin_of(ray), phase_of(ray.nu));
+#endif
     vec4 sent = vec4(0.0);
 #ifdef STAR
     sent = star_disc(ray) * transmittance_to_space(ray);
