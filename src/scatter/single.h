@@ -9,7 +9,7 @@
 //
 // Constituents with the same phase function share a channel. What is only added is a colour, from
 // all wavelengths; what is multiplied is in four bands (bands.h) per unit irradiance of the star.
-// docs/decisions/017-two-look-ups-in-colour.md
+// docs/decisions/021-two-look-ups-in-colour.md
 
 #include "scatter/bands.h"
 

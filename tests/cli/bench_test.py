@@ -67,6 +67,17 @@ class Bench(ProgramTest):
             self.assertLessEqual(max(row["min"] for row in passes), together["min"])
             self.assertGreater(rows[case, "moving frame"]["min"], 0.0)
 
+    def test_table_of_a_paper(self):
+        table, = self.measure("schafhitzel-table2")
+        self.assertIn("Table 2", table["source"])
+        rows = {(row["case"], row["metric"]): row for row in table["rows"]}
+        for side, paper in [(128, 608.49), (256, 181.54), (512, 48.67)]:
+            case = f"{side} x {side} vertices"
+            self.assertEqual(rows[case, "optimized (3D table)"]["paper"], paper)
+            self.assertGreater(rows[case, "optimized (3D table)"]["min"], 0.0)
+            self.assertGreater(rows[case, "vertex shader"]["min"], 0.0)
+            self.assertGreater(rows[case, "optimized / vertex shader"]["min"], 0.0)
+
     def test_start(self):
         start, = self.measure("start")
         self.check_form(start, "start")

@@ -87,6 +87,21 @@ class Answers(ProgramTest):
                                        self.columns(single, "standard_error")):
             self.assertLess(abs(value - exact), 4 * error + 5e-3 * exact)
 
+    def test_single_is_exact_in_the_plane_of_the_star_only(self):
+        def ask(azimuth, *more):
+            views = ["sky", self.scene, "--altitude", "0", "--sun-zenith", "92", "--view-zenith", "40,80",
+                     "--azimuth", azimuth, "--wavelength", "450,650"]
+            return self.columns(self.expect_success(*views, *more).stdout, "radiance_W_m2_sr_nm")
+        for single, exact in zip(ask(0, "--solver", "single"), ask(0, "--orders", "1")):
+            self.assertLess(abs(single - exact), 1e-4 * exact)
+        # Opposite the star the air is in shadow up to farther away: 4 to 76 % too bright, most near the horizon.
+        for single, exact in zip(ask(180, "--solver", "single"), ask(180, "--orders", "1")):
+            self.assertGreater(single, 1.03 * exact)
+        self.assertGreater(ask(180, "--solver", "single")[2], 1.5 * ask(180, "--orders", "1")[2])
+        self.expect_failure(1, ["sky", self.scene, "--altitude", "0", "--sun-zenith", "92", "--view-zenith", "40",
+                                "--azimuth", "0", "--wavelength", "450", "--solver", "single", "--orders", "2"],
+                            ["single", "one order"])
+
     @staticmethod
     def columns(text, name):
         lines = [line.split(",") for line in text.splitlines()]

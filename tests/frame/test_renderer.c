@@ -314,7 +314,7 @@ static void give_back(void *user, void *block)
     free(block);
 }
 
-static trl_result create_with(const struct setup *s, struct purse *purse)
+static trl_result create_with(const struct setup *s, struct purse *purse, trl_sky_model model)
 {
     trl_context_desc desc = trl_context_desc_default();
     desc.allocator = (trl_allocator){take, retake, give_back, purse};
@@ -325,6 +325,7 @@ static trl_result create_with(const struct setup *s, struct purse *purse)
         trl_renderer_desc renderer_desc = trl_renderer_desc_default();
         renderer_desc.scene = s->scene;
         renderer_desc.wavelengths = 4;
+        renderer_desc.sky_model = (int)model;
         trl_renderer *renderer = NULL;
         result = trl_renderer_create(ctx, &renderer_desc, &renderer);
         assert_true((renderer != NULL) == (result == TRL_OK));
@@ -334,18 +335,24 @@ static trl_result create_with(const struct setup *s, struct purse *purse)
     return result;
 }
 
-static void running_out_of_memory_is_a_result_and_leaks_nothing(void **state)
+static void starve(void **state, trl_sky_model model)
 {
     struct purse rich = {.left = 1000000};
-    assert_int_equal(create_with(*state, &rich), TRL_OK);
+    assert_int_equal(create_with(*state, &rich, model), TRL_OK);
     assert_int_equal(rich.live, 0);
     const int needed = 1000000 - rich.left;
     const int step = needed / 6 + 1; // six of the places where it may happen
     for (int left = 0; left < needed; left += step) {
         struct purse purse = {.left = left};
-        assert_int_equal(create_with(*state, &purse), TRL_ERROR_MEMORY);
+        assert_int_equal(create_with(*state, &purse, model), TRL_ERROR_MEMORY);
         assert_int_equal(purse.live, 0);
     }
+}
+
+static void running_out_of_memory_is_a_result_and_leaks_nothing(void **state)
+{
+    starve(state, TRL_SKY_SPECTRAL);
+    starve(state, TRL_SKY_SINGLE);
 }
 
 static void the_gl_of_the_machine_is_described(void **state)
