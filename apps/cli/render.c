@@ -206,6 +206,7 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     trl_renderer_desc desc = trl_renderer_desc_default();
     desc.scene = scene;
     desc.sky_model = arguments->view.sky_model;
+    desc.air = (trl_air)arguments->view.air;
     desc.measures_time = arguments->shows_timings;
     trl_renderer *renderer = NULL;
     trl_result result = trl_renderer_create(app->ctx, &desc, &renderer);

@@ -89,6 +89,7 @@ static enum exit_status open_window(struct app *app, const struct view_arguments
                                    .scene = scene,
                                    .scene_path = arguments->scene,
                                    .sky_model = arguments->view.sky_model,
+                                   .air = (trl_air)arguments->view.air,
                                    .view = view,
                                    .width = arguments->size.width,
                                    .height = arguments->size.height,

@@ -14,6 +14,9 @@ static const trl_tone_curve tone_curves[] = {TRL_TONE_FILMIC, TRL_TONE_EXPONENTI
 // In the order of trl_sky_model.
 static const char *const sky_words[] = {"spectral", "single", "rayleigh", NULL};
 
+// In the order of trl_air.
+static const char *const air_words[] = {"table", "march", NULL};
+
 static const struct number_range latitudes_deg = {-90.0, 90.0};
 static const struct number_range turns_deg = {-360.0, 360.0};
 // As far out as scene files allow a camera, and a little below the sphere, where sea floors are.
@@ -24,7 +27,8 @@ static const struct number_range stops = {-40.0, 40.0};
 
 struct view_choice view_choice_default(void)
 {
-    return (struct view_choice){.tone = -1, .sky_model = TRL_SKY_MODEL_OF_SCENE};
+    return (struct view_choice){
+        .tone = -1, .air = TRL_AIR_MARCH, .sky_model = TRL_SKY_MODEL_OF_SCENE};
 }
 
 static struct option make_number(const char *name, struct option_number *target,
@@ -128,6 +132,14 @@ enum options_outcome view_command_read(const struct view_command *command, int a
                  "2010 and beyond), single (one scattering, a 3D table, Schafhitzel 2007) or "
                  "rayleigh (a few samples per pixel, Santana 2017). Default: what the scene asks "
                  "for, else spectral."},
+        {.name = "air",
+         .kind = OPTION_CHOICE,
+         .target.choice = &command->choice->air,
+         .choices = air_words,
+         .metavar = "WAY",
+         .help =
+             "Of the spectral sky: march (terrain casts shadows into the air) or table (it does "
+             "not; faster). Default: march."},
     };
     const struct option_section sections[] = {command->own,
                                               {"Camera", camera, CAMERA_OPTIONS},

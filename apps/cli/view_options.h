@@ -17,6 +17,7 @@ struct view_choice {
     struct option_number subsolar_latitude_deg, subsolar_longitude_deg;
     struct option_number ev100, bias_ev;
     int tone;      // index of the word; -1: as in the view
+    int air;       // a trl_air
     int sky_model; // a trl_sky_model; TRL_SKY_MODEL_OF_SCENE when it was not given
 };
 

@@ -149,6 +149,14 @@ static void change_model(struct viewer *viewer)
     }
 }
 
+static void toggle_air(struct viewer *viewer)
+{
+    const trl_air other =
+        trl_renderer_air(viewer->renderer) == TRL_AIR_MARCH ? TRL_AIR_TABLE : TRL_AIR_MARCH;
+    viewer->result = trl_renderer_set_air(viewer->renderer, other);
+    viewer->is_changed = true;
+}
+
 static void note_key(GLFWwindow *window, int key, int scancode, int action, int modifiers)
 {
     (void)scancode;
@@ -178,6 +186,9 @@ static void note_key(GLFWwindow *window, int key, int scancode, int action, int 
         break;
     case GLFW_KEY_M:
         change_model(viewer);
+        break;
+    case GLFW_KEY_G:
+        toggle_air(viewer);
         break;
     case GLFW_KEY_F:
         toggle_fullscreen(viewer);

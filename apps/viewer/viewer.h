@@ -14,6 +14,7 @@
     "  up, down          turn the sun by season\n"                                                 \
     "  + -  0            brighter, darker; automatic exposure without bias\n"                      \
     "  T  M              other tone curve; other model of the sky\n"                               \
+    "  G                 shadows in the air, or none\n"                                            \
     "  C                 choose a constituent of the air, one after the other\n"                   \
     "  , .               less, more of it\n"                                                       \
     "  ; '               scatter it less, more forward (asymmetry g)\n"                            \
@@ -28,6 +29,7 @@ struct viewer_desc {
     const trl_scene *scene;
     const char *scene_path; // the file, which is followed when it is saved; NULL: not followed
     int sky_model;          // as in trl_renderer_desc
+    trl_air air;            // to begin with
     trl_view view;          // where it begins
     uint32_t width, height; // of the window
     uint64_t frame_limit;   // quit after so many frames; 0: never

@@ -223,6 +223,7 @@ static void fly_scene(struct viewer *viewer)
     desc.scene = viewer->desc->scene;
     desc.gl = TRL_GL_CURRENT;
     desc.sky_model = viewer->desc->sky_model;
+    desc.air = viewer->desc->air;
     viewer->result = trl_renderer_create(viewer->desc->ctx, &desc, &viewer->renderer);
     if (viewer->result != TRL_OK || !controls_resolve(viewer, &viewer->desc->view, &viewer->view)) {
         return;

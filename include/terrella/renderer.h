@@ -40,6 +40,16 @@ enum {
     TRL_RENDERER_MAX_WAVELENGTHS = 16  ///< of trl_renderer_desc.wavelengths
 };
 
+/// How the spectral model finds the light that the air adds; the others know one way each.
+typedef enum trl_air {
+    TRL_AIR_TABLE, ///< "table": looked up as solved for a smooth sphere
+    TRL_AIR_MARCH ///< "march": the same, less the direct light that does not arrive because terrain
+                  ///< stands before the star: shadows in the air
+} trl_air;
+
+/// The word for it on the command line; NULL for what is none. Threads: any.
+TRL_API const char *trl_air_name(trl_air air);
+
 /// trl_renderer_desc.sky_model: what the scene asks for.
 #define TRL_SKY_MODEL_OF_SCENE (-1)
 
@@ -49,6 +59,7 @@ typedef struct trl_renderer_desc {
     trl_gl gl;              ///< default TRL_GL_HEADLESS
     uint32_t wavelengths;   ///< to solve for, [1, TRL_RENDERER_MAX_WAVELENGTHS]; default 16
     int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
+    trl_air air;            ///< default TRL_AIR_MARCH
     bool measures_time;     ///< each draw waits for the GPU and fills trl_renderer_timings; default
                             ///< false
 } trl_renderer_desc;
@@ -180,6 +191,14 @@ trl_renderer_change_atmosphere(trl_renderer *renderer, const trl_scene *scene,
 /// Whether draws show the atmosphere last changed to, as fine as it gets. While it is false,
 /// drawing again can give a better picture.
 TRL_API bool trl_renderer_is_settled(const trl_renderer *renderer);
+
+/// Finds the light of the air in another way from the next frame on, which compiles programs when it
+/// is the first of that kind.
+/// @return TRL_OK; TRL_ERROR_INVALID (there is no such way)
+TRL_API TRL_MUST_USE trl_result trl_renderer_set_air(trl_renderer *renderer, trl_air air);
+
+/// The way that frames are drawn with.
+TRL_API trl_air trl_renderer_air(const trl_renderer *renderer);
 
 /// How long one pass of the last frame took.
 typedef struct trl_timing {

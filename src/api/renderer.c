@@ -19,7 +19,8 @@ trl_renderer_desc trl_renderer_desc_default(void)
     return (trl_renderer_desc){.canary = RENDERER_CANARY,
                                .gl = TRL_GL_HEADLESS,
                                .wavelengths = 16,
-                               .sky_model = TRL_SKY_MODEL_OF_SCENE};
+                               .sky_model = TRL_SKY_MODEL_OF_SCENE,
+                               .air = TRL_AIR_MARCH};
 }
 
 static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, trl_renderer **out)
@@ -36,6 +37,7 @@ static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, 
                                      .sky_model = desc->sky_model == TRL_SKY_MODEL_OF_SCENE
                                                       ? desc->scene->sky_model
                                                       : (trl_sky_model)desc->sky_model,
+                                     .air = desc->air,
                                      .measures_time = desc->measures_time};
     const trl_result result = frame_init(&frame, &renderer->frame);
     if (result != TRL_OK) {
@@ -58,6 +60,7 @@ trl_result trl_renderer_create(trl_context *ctx, const trl_renderer_desc *desc, 
     TRL_REQUIRE(ctx, desc->scene != NULL);
     TRL_REQUIRE(ctx, desc->gl == TRL_GL_HEADLESS || desc->gl == TRL_GL_CURRENT);
     TRL_REQUIRE(ctx, desc->wavelengths >= 1 && desc->wavelengths <= TRL_RENDERER_MAX_WAVELENGTHS);
+    TRL_REQUIRE(ctx, trl_air_name(desc->air) != NULL);
     return create_frame(ctx, desc, out);
 }
 
@@ -264,6 +267,27 @@ trl_result trl_renderer_change_atmosphere(trl_renderer *renderer, const trl_scen
 bool trl_renderer_is_settled(const trl_renderer *renderer)
 {
     return !renderer || frame_is_settled(&renderer->frame);
+}
+
+const char *trl_air_name(trl_air air)
+{
+    static const char *const names[] = {[TRL_AIR_TABLE] = "table", [TRL_AIR_MARCH] = "march"};
+    return (unsigned)air < sizeof names / sizeof *names ? names[air] : NULL;
+}
+
+trl_result trl_renderer_set_air(trl_renderer *renderer, trl_air air)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx, trl_air_name(air) != NULL);
+    renderer->frame.air = air;
+    return TRL_OK;
+}
+
+trl_air trl_renderer_air(const trl_renderer *renderer)
+{
+    return renderer ? renderer->frame.air : TRL_AIR_MARCH;
 }
 
 double trl_renderer_ground_altitude_m(const trl_renderer *renderer, double latitude_rad,

@@ -73,7 +73,8 @@ bool frame_is_settled(const struct frame *frame)
 
 trl_result frame_init(const struct frame_desc *desc, struct frame *out)
 {
-    *out = (struct frame){.ctx = desc->ctx, .scene = desc->scene, .wavelengths = desc->wavelengths};
+    *out = (struct frame){
+        .ctx = desc->ctx, .scene = desc->scene, .air = desc->air, .wavelengths = desc->wavelengths};
     trl_result result = medium_copy(desc->ctx, &desc->scene->medium, &out->medium);
     if (result == TRL_OK) {
         result = open_gpu(desc, &out->gpu);
@@ -197,6 +198,9 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
                                   .highest_m = ground_highest_m(&frame->ground),
                                   .surface = ground_surface(&frame->ground),
                                   .spheres = frame->spheres,
+
+                                  .shadow = ground_shadow(&frame->ground),
+                                  .air = frame->air,
                                   .target = &frame->radiance_target};
     struct sky *sky = &frame->skies[frame->sky_model];
     if (result == TRL_OK) {

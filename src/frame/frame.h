@@ -28,6 +28,7 @@ struct frame_desc {
     trl_gl gl;
     uint32_t wavelengths;
     trl_sky_model sky_model;
+    trl_air air;
     bool measures_time;
 };
 
@@ -40,6 +41,8 @@ struct frame {
     struct sky skies[SKY_MODELS]; // by trl_sky_model; made when first asked for
     trl_sky_model sky_model;      // that frames are drawn with
     struct sky_spheres spheres;
+
+    trl_air air;
     uint32_t wavelengths;
     struct exposure exposure;
     struct tone tone;

@@ -196,6 +196,18 @@ struct sky_surface ground_surface(const struct ground *ground)
                                 .lights_cd_m2 = ground->lights_cd_m2};
 }
 
+static void bind_shadow(const void *self, const struct camera *camera, struct gpu_program *program)
+{
+    terrain_shadow_bind(self, camera, program);
+}
+
+struct sky_shadow ground_shadow(const struct ground *ground)
+{
+    return (struct sky_shadow){.bind = bind_shadow,
+                               .self = &ground->shadow,
+                               .highest_m = ground->shadow.projection.max_altitude_m};
+}
+
 double ground_altitude_m(const struct ground *ground, double latitude_rad, double longitude_rad)
 {
     return surface_altitude(&ground->surface, vec3_from_lat_lon(latitude_rad, longitude_rad));

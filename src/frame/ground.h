@@ -44,6 +44,9 @@ TRL_MUST_USE trl_result ground_draw(struct ground *ground, const struct camera *
 // What the sky pass lights: all NULL for a bare sphere.
 struct sky_surface ground_surface(const struct ground *ground);
 
+// What shades the air, after ground_draw.
+struct sky_shadow ground_shadow(const struct ground *ground);
+
 double ground_altitude_m(const struct ground *ground, double latitude_rad, double longitude_rad);
 double ground_highest_m(const struct ground *ground);
 

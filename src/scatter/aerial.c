@@ -18,7 +18,8 @@ struct aerial_worker {
     struct transport_scratch *scratch;
     float sun_mu[AERIAL_AZIMUTHS], nu[AERIAL_AZIMUTHS];
     float phase[MEDIUM_MAX_CONSTITUENTS][AERIAL_AZIMUTHS];
-    lanes radiance[1 + TABLE_MAX_PEAKED][AERIAL_AZIMUTHS];
+    lanes radiance[1 + TABLE_MAX_PEAKED][AERIAL_AZIMUTHS]; // up to here, all orders
+    lanes cell[AERIAL_SOURCES][AERIAL_AZIMUTHS];           // of one cell, as aerial.source
 };
 
 static size_t row_floats(void)
@@ -63,7 +64,30 @@ void aerial_finish(struct aerial *aerial)
     for (int c = 0; c <= TABLE_MAX_PEAKED; c++) {
         mem_free(ctx, aerial->scattered[c]);
     }
+    for (int c = 0; c < AERIAL_SOURCES; c++) {
+        mem_free(ctx, aerial->source[c]);
+    }
     *aerial = (struct aerial){0};
+}
+
+static bool has_source(const struct aerial *a)
+{
+    return a->source[AERIAL_MULTIPLE] != NULL;
+}
+
+trl_result aerial_add_source(struct aerial *a)
+{
+    for (int c = 0; c < AERIAL_SOURCES; c++) {
+        if (!a->source[c] && (c <= a->atmosphere->peaked.count || c == AERIAL_MULTIPLE)) {
+            a->source[c] =
+                mem_alloc(a->atmosphere->ctx, (size_t)AERIAL_ROWS * AERIAL_AZIMUTHS * row_floats(),
+                          sizeof(float));
+            if (!a->source[c]) {
+                return TRL_ERROR_MEMORY;
+            }
+        }
+    }
+    return TRL_OK;
 }
 
 // Cosine of the ray of a row; the inverse of the row coordinates of shared/sky_map.glsl.
@@ -92,17 +116,56 @@ static void fill_family(struct aerial_worker *w, double mu, double sun_mu)
     }
 }
 
+static size_t texel_at(int row, int azimuth, int depth)
+{
+    return ((size_t)row * AERIAL_AZIMUTHS + (size_t)azimuth) * row_floats() +
+           (size_t)depth * TEXEL_FLOATS;
+}
+
 static void store_scattered(struct aerial *a, const struct aerial_worker *w, int row, int depth,
                             double length_m)
 {
     for (int c = 0; c <= a->atmosphere->peaked.count; c++) {
         for (int p = 0; p < AERIAL_AZIMUTHS; p++) {
-            float *texel = a->scattered[c] + ((size_t)row * AERIAL_AZIMUTHS + p) * row_floats() +
-                           (size_t)depth * TEXEL_FLOATS;
             const double phase = c == 0 ? phase_rayleigh((double)w->nu[p]) : 1;
             bands_xyz(&a->atmosphere->bands, &w->radiance[c][p], (float)(1 / (length_m * phase)),
-                      texel);
+                      a->scattered[c] + texel_at(row, p, depth));
         }
+    }
+}
+
+static void store_source(struct aerial *a, const struct aerial_worker *w, int row, int depth,
+                         double length_m)
+{
+    for (int c = 0; c < AERIAL_SOURCES; c++) {
+        for (int p = 0; a->source[c] && p < AERIAL_AZIMUTHS; p++) {
+            const bool is_peaked = c > 0 && c != AERIAL_MULTIPLE;
+            const double phase = is_peaked ? 1 : phase_rayleigh((double)w->nu[p]);
+            bands_xyz(&a->atmosphere->bands, &w->cell[c][p], (float)(1 / (length_m * phase)),
+                      a->source[c] + texel_at(row, p, depth));
+        }
+    }
+}
+
+// Light of one cell, apart and added to that of the cells before.
+static void add_cell(const struct aerial *a, struct aerial_worker *w,
+                     const struct transport_family *family,
+                     const struct transport_channels *channels)
+{
+    const struct atmosphere *atm = a->atmosphere;
+    lanes *out[1 + TABLE_MAX_PEAKED];
+    for (int c = 0; c <= TABLE_MAX_PEAKED; c++) {
+        out[c] = w->cell[c];
+    }
+    memset(w->cell, 0, sizeof w->cell);
+    transport_add_single(&atm->solution.sun, &w->ray, family, channels, out, w->scratch);
+    transport_add_multiple(&atm->solution.moments, &w->ray, family, w->cell[AERIAL_MULTIPLE],
+                           w->scratch);
+    for (int p = 0; p < AERIAL_AZIMUTHS; p++) {
+        for (int c = 0; c <= atm->peaked.count; c++) {
+            w->radiance[c][p] += w->cell[c][p];
+        }
+        w->radiance[0][p] += w->cell[AERIAL_MULTIPLE][p];
     }
 }
 
@@ -147,10 +210,6 @@ static void march_row(struct aerial *a, struct aerial_worker *w, int row, double
     for (int i = 0; i < MEDIUM_MAX_CONSTITUENTS; i++) {
         phase[i] = w->phase[i];
     }
-    lanes *out[1 + TABLE_MAX_PEAKED];
-    for (int c = 0; c <= TABLE_MAX_PEAKED; c++) {
-        out[c] = w->radiance[c];
-    }
     const struct transport_channels channels =
         peaked_channels(&atm->peaked, optics, &family, phase);
     memset(w->radiance, 0, sizeof w->radiance);
@@ -158,8 +217,7 @@ static void march_row(struct aerial *a, struct aerial_worker *w, int row, double
     for (int d = 0; d < AERIAL_DEPTHS; d++) {
         w->ray.first_node = d * NODES_PER_CELL;
         w->ray.node_count = (d + 1) * NODES_PER_CELL;
-        transport_add_single(&atm->solution.sun, &w->ray, &family, &channels, out, w->scratch);
-        transport_add_multiple(&atm->solution.moments, &w->ray, &family, out[0], w->scratch);
+        add_cell(a, w, &family, &channels);
         for (int k = w->ray.first_node; k < w->ray.node_count; k++) {
             for (int i = 0; i < optics->constituent_count; i++) {
                 column_m[i] += w->ray.node[k].density[i] * w->ray.node[k].weight_m;
@@ -168,6 +226,9 @@ static void march_row(struct aerial *a, struct aerial_worker *w, int row, double
         const double length_m = fmax(bound_m[d + 1] - begin_m, 1e-9);
         store_scattered(a, w, row, d, length_m);
         store_extinction(a, column_m, row, d, length_m);
+        if (has_source(a)) {
+            store_source(a, w, row, d, fmax(bound_m[d + 1] - bound_m[d], 1e-9));
+        }
     }
 }
 

@@ -9,6 +9,10 @@
 // Stored are means over the way through the air: in-scattered radiance per metre (channels as in
 // table.h) and extinction per metre, which are smooth down to no distance at all. Rows by
 // shared/sky_map.glsl: first those that meet the reference sphere, then those that pass above it.
+//
+// For marching along the rays (sky/march.h) there is also, where it is asked for, the source: light
+// that each cell of a ray sends to the eye per metre, dimmed by the air before it, with the first
+// order apart from the others. The sources of all cells make what is scattered.
 
 #include "scatter/atmosphere.h"
 
@@ -17,7 +21,9 @@ enum {
     AERIAL_AZIMUTHS = 16,
     AERIAL_GROUND_ROWS = 64,
     AERIAL_AIR_ROWS = 32,
-    AERIAL_ROWS = AERIAL_GROUND_ROWS + AERIAL_AIR_ROWS
+    AERIAL_ROWS = AERIAL_GROUND_ROWS + AERIAL_AIR_ROWS,
+    AERIAL_MULTIPLE = 1 + TABLE_MAX_PEAKED, // in `source`: all orders but the first
+    AERIAL_SOURCES
 };
 
 struct aerial {
@@ -27,12 +33,17 @@ struct aerial {
     double horizon_mu, highest_mu;          // of the rows above
     float *scattered[1 + TABLE_MAX_PEAKED]; // [row][azimuth][depth][TEXEL_FLOATS]
     float *extinction;                      // [row][depth][BAND_COUNT]
+    // Layout of `scattered`, depth d standing for the cell that ends at depth d: the first order in
+    // its channels, and AERIAL_MULTIPLE, divided by the Rayleigh phase function. NULL: not asked for
+    float *source[AERIAL_SOURCES];
     struct aerial_worker *workers;
     int worker_count;
 };
 
 TRL_MUST_USE trl_result aerial_init(const struct atmosphere *atmosphere, struct aerial *out);
 void aerial_finish(struct aerial *aerial);
+// From the next update on there is a source.
+TRL_MUST_USE trl_result aerial_add_source(struct aerial *aerial);
 
 // Computes all for an eye; about 10 ms on two cores. An eye below AERIAL_MIN_ALTITUDE_M counts as
 // there.

@@ -51,6 +51,10 @@ TRL_MUST_USE trl_result sky_pixels_draw(const struct sky_pixels *pixels,
 void sky_set_bands(struct gpu_program *program, const struct bands *bands,
                    const struct optics *optics, double lights_cd_m2);
 
+// Sets the uniforms of ray.glsl, for programs that draw something else than a kind of pixels.
+void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *program,
+                         const struct sky_view *view);
+
 void sky_set_vec3(struct gpu_program *program, const char *name, struct vec3 v);
 void sky_set_vec4(struct gpu_program *program, const char *name, double x, double y, double z,
                   double w);

@@ -13,7 +13,7 @@
 #include "base/camera.h"
 #include "gpu/pass.h"
 #include "scatter/medium.h"
-#include <terrella/atmosphere.h>
+#include <terrella/renderer.h>
 
 struct sky_desc {
     struct gpu *gpu;
@@ -34,12 +34,23 @@ struct sky_spheres {
     uint32_t steps;     // of each integral
 };
 
+// Terrain's shadow on the air.
+struct sky_shadow {
+    // Hands it to a program that includes terrain/shadow.glsl; with a bare sphere never called.
+    void (*bind)(const void *self, const struct camera *camera, struct gpu_program *program);
+    const void *self;
+    double highest_m; // altitude of the highest ground that can be seen
+};
+
 // One picture.
 struct sky_view {
     const struct camera *camera;
     double highest_m; // altitude of the highest ground
     struct sky_surface surface;
     struct sky_spheres spheres;
+
+    struct sky_shadow shadow;
+    trl_air air;
     const struct gpu_target *target; // with a depth texture that nobody else uses meanwhile
 };
 

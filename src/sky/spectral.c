@@ -4,6 +4,7 @@
 // The maps are in spectral_maps.h; here they are drawn with.
 #include "scatter/resolver.h"
 #include "sky/ground_light.h"
+#include "sky/march.h"
 #include "sky/pixels.h"
 #include "sky/spectral_maps.h"
 #include "spectrum/cie.h"
@@ -11,12 +12,19 @@
 #include <math.h>
 #include <stdio.h>
 
+// The programs that draw pixels.
+struct spectral_programs {
+    bool is_made;
+    struct gpu_program air, star, ground_bare, ground_surface;
+};
+
 struct spectral {
     const trl_context *ctx;
     struct gpu *gpu;
     struct spectral_maps maps;
     struct sky_pixels pixels;
-    struct gpu_program air, star, ground_bare, ground_surface;
+    struct spectral_programs programs[TRL_AIR_MARCH + 1]; // by trl_air; made when first asked for
+    struct sky_march march;
     uint32_t wavelengths;
     struct resolver *resolver; // of a medium that was changed to, or NULL
 };
@@ -24,6 +32,20 @@ struct spectral {
 static const char *const SLICE_NAMES[] = {"u_slice0", "u_slice1", "u_slice2", "u_slice3"};
 static const char *const SCATTERED_NAMES[] = {"u_scattered0", "u_scattered1", "u_scattered2",
                                               "u_scattered3"};
+static const char *const SOURCE_NAMES[] = {"u_source0", "u_source1", "u_source2", "u_source3",
+                                           "u_source_multiple"};
+
+static void finish_programs(struct spectral *sky)
+{
+    for (int air = TRL_AIR_TABLE; air <= TRL_AIR_MARCH; air++) {
+        struct spectral_programs *programs = &sky->programs[air];
+        gpu_program_finish(&programs->air);
+        gpu_program_finish(&programs->star);
+        gpu_program_finish(&programs->ground_bare);
+        gpu_program_finish(&programs->ground_surface);
+        programs->is_made = false;
+    }
+}
 
 struct variant {
     struct gpu_program *program;
@@ -31,25 +53,41 @@ struct variant {
     const char *define;
 };
 
-static trl_result make_programs(struct spectral *sky)
+static trl_result make_program(const struct spectral *sky, trl_air air,
+                               const struct variant *variant)
 {
-    const struct variant variants[] = {
-        {&sky->air, "sky/spectral/sky.frag", NULL},
-        {&sky->star, "sky/spectral/sky.frag", "STAR"},
-        {&sky->ground_bare, "sky/spectral/ground.frag", NULL},
-        {&sky->ground_surface, "sky/spectral/ground.frag", "SURFACE"},
-    };
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", sky->maps.atmosphere->peaked.count);
+    const char *defines[3] = {peaked};
+    size_t count = 1;
+    if (variant->define) {
+        defines[count++] = variant->define;
+    }
+    if (air == TRL_AIR_MARCH) {
+        defines[count++] = "MARCH";
+    }
+    const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
+                                          .fragment = variant->fragment,
+                                          .defines = defines,
+                                          .define_count = count};
+    gpu_program_finish(variant->program); // what an attempt that failed has left
+    return gpu_program_init(sky->gpu, &desc, variant->program);
+}
+
+static trl_result make_programs(struct spectral *sky, trl_air air)
+{
+    struct spectral_programs *p = &sky->programs[air];
+    const struct variant variants[] = {
+        {&p->air, "sky/spectral/sky.frag", NULL},
+        {&p->star, "sky/spectral/sky.frag", "STAR"},
+        {&p->ground_bare, "sky/spectral/ground.frag", NULL},
+        {&p->ground_surface, "sky/spectral/ground.frag", "SURFACE"},
+    };
     trl_result result = TRL_OK;
     for (size_t i = 0; i < sizeof variants / sizeof *variants && result == TRL_OK; i++) {
-        const char *const defines[] = {peaked, variants[i].define};
-        const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
-                                              .fragment = variants[i].fragment,
-                                              .defines = defines,
-                                              .define_count = variants[i].define ? 2 : 1};
-        result = gpu_program_init(sky->gpu, &desc, variants[i].program);
+        result = make_program(sky, air, &variants[i]);
     }
+    p->is_made = result == TRL_OK;
     return result;
 }
 
@@ -67,21 +105,18 @@ static trl_result init(const struct sky_desc *desc, struct spectral *sky)
         const double disc_rad = sky->maps.atmosphere->solution.sun.disc_rad;
         result = sky_pixels_init(desc, disc_rad, &sky->pixels);
     }
-    return result == TRL_OK ? make_programs(sky) : result;
-}
-
-static void finish_programs(struct spectral *sky)
-{
-    gpu_program_finish(&sky->ground_bare);
-    gpu_program_finish(&sky->ground_surface);
-    gpu_program_finish(&sky->air);
-    gpu_program_finish(&sky->star);
+    if (result == TRL_OK) {
+        sky_march_init(&sky->pixels, &sky->march);
+        result = make_programs(sky, TRL_AIR_TABLE);
+    }
+    return result;
 }
 
 static void spectral_destroy(void **self)
 {
     struct spectral *sky = *self;
     resolver_destroy(&sky->resolver);
+    sky_march_finish(&sky->march);
     finish_programs(sky);
     sky_pixels_finish(&sky->pixels);
     spectral_maps_finish(&sky->maps);
@@ -130,9 +165,11 @@ static trl_result adopt_solved(struct spectral *sky)
     spectral_maps_finish(&sky->maps);
     sky->maps = maps;
     sky->pixels.top_radius_m = maps.atmosphere->optics->top_radius_m;
+    sky_march_finish(&sky->march);
+    sky_march_init(&sky->pixels, &sky->march);
     if (!has_programs) {
         finish_programs(sky);
-        result = make_programs(sky);
+        result = make_programs(sky, TRL_AIR_TABLE);
     }
     return result;
 }
@@ -157,6 +194,16 @@ static bool spectral_is_settled(const void *self)
     return !sky->resolver;
 }
 
+// What marching needs more than the tables.
+static trl_result prepare_march(struct spectral *sky)
+{
+    trl_result result = TRL_OK;
+    if (!sky->programs[TRL_AIR_MARCH].is_made) {
+        result = make_programs(sky, TRL_AIR_MARCH);
+    }
+    return result == TRL_OK ? spectral_maps_add_source(&sky->maps) : result;
+}
+
 static trl_result spectral_prepare(void *self, const struct sky_view *view)
 {
     struct spectral *sky = self;
@@ -164,7 +211,10 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
     const double radius_m = sky_pixels_eye_radius(&sky->pixels, camera);
     const double sun_mu = vec3_dot(vec3_normalize(camera->position_m), camera->sun_direction);
     const struct spectral_eye eye = {radius_m, sun_mu, view->highest_m};
-    const trl_result result = adopt_solved(sky);
+    trl_result result = adopt_solved(sky);
+    if (result == TRL_OK && view->air == TRL_AIR_MARCH) {
+        result = prepare_march(sky);
+    }
     return result == TRL_OK ? spectral_maps_update(&sky->maps, &eye) : result;
 }
 
@@ -208,6 +258,32 @@ static void set_maps(const struct spectral *sky, struct gpu_program *program)
     gpu_program_set_texture(program, "u_phase", &sky->maps.phase);
 }
 
+static void set_sources(const void *self, struct gpu_program *program)
+{
+    const struct spectral *sky = self;
+    set_maps(sky, program);
+    for (int c = 0; c < AERIAL_SOURCES; c++) {
+        if (sky->maps.source[c].name) {
+            gpu_program_set_texture(program, SOURCE_NAMES[c], &sky->maps.source[c]);
+        }
+    }
+}
+
+// A bare sphere has nothing that shades the air.
+static bool has_shadows(const struct sky_view *view)
+{
+    return view->air == TRL_AIR_MARCH && !sky_view_is_bare(view);
+}
+
+static trl_result draw_shares(struct spectral *sky, const struct sky_view *view)
+{
+    const struct sky_march_source source = {.pixels = &sky->pixels,
+                                            .peaked_count = sky->maps.atmosphere->peaked.count,
+                                            .set_maps = set_sources,
+                                            .self = sky};
+    return sky_march_draw(&sky->march, &source, view);
+}
+
 // One kind of pixels.
 static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, enum sky_kind kind,
                             const struct sky_view *view)
@@ -216,19 +292,28 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
                   view->surface.lights_cd_m2);
     set_xyz(program);
     set_maps(sky, program);
+    if (has_shadows(view)) {
+        sky_march_bind(&sky->march, program);
+    }
     return sky_pixels_draw(&sky->pixels, program, kind, view);
 }
 
 static trl_result spectral_draw(void *self, const struct sky_view *view)
 {
     struct spectral *sky = self;
-    struct gpu_program *ground = sky_view_is_bare(view) ? &sky->ground_bare : &sky->ground_surface;
-    trl_result result = sky_pixels_sort(&sky->pixels, view);
+    struct spectral_programs *programs =
+        &sky->programs[has_shadows(view) ? TRL_AIR_MARCH : TRL_AIR_TABLE];
+    struct gpu_program *ground =
+        sky_view_is_bare(view) ? &programs->ground_bare : &programs->ground_surface;
+    trl_result result = has_shadows(view) ? draw_shares(sky, view) : TRL_OK;
     if (result == TRL_OK) {
-        result = draw_kind(sky, &sky->air, SKY_KIND_AIR, view);
+        result = sky_pixels_sort(&sky->pixels, view);
     }
     if (result == TRL_OK) {
-        result = draw_kind(sky, &sky->star, SKY_KIND_STAR, view);
+        result = draw_kind(sky, &programs->air, SKY_KIND_AIR, view);
+    }
+    if (result == TRL_OK) {
+        result = draw_kind(sky, &programs->star, SKY_KIND_STAR, view);
     }
     return result == TRL_OK ? draw_kind(sky, ground, SKY_KIND_GROUND, view) : result;
 }

@@ -106,6 +106,9 @@ void spectral_maps_finish(struct spectral_maps *maps)
         gpu_texture_finish(&maps->slice[c]);
         gpu_texture_finish(&maps->scattered[c]);
     }
+    for (int c = 0; c < AERIAL_SOURCES; c++) {
+        gpu_texture_finish(&maps->source[c]);
+    }
     gpu_texture_finish(&maps->extinction);
     gpu_texture_finish(&maps->sunlight);
     gpu_texture_finish(&maps->skylight);
@@ -114,6 +117,22 @@ void spectral_maps_finish(struct spectral_maps *maps)
     aerial_finish(&maps->aerial);
     atmosphere_destroy(&maps->atmosphere);
     *maps = (struct spectral_maps){0};
+}
+
+trl_result spectral_maps_add_source(struct spectral_maps *maps)
+{
+    if (maps->source[AERIAL_MULTIPLE].name) {
+        return TRL_OK;
+    }
+    trl_result result = aerial_add_source(&maps->aerial);
+    for (int c = 0; c < AERIAL_SOURCES && result == TRL_OK; c++) {
+        if (maps->aerial.source[c] && !maps->source[c].name) {
+            result = make_texture(maps->gpu, "air source", AERIAL_DEPTHS, AERIAL_AZIMUTHS,
+                                  AERIAL_ROWS, &maps->source[c]);
+        }
+    }
+    maps->aerial_radius_m = 0; // made anew by the next update
+    return result;
 }
 
 // Light of the air spans many orders of magnitude from day to night, so its maps hold logarithms:
@@ -168,6 +187,12 @@ static trl_result update_aerial(struct spectral_maps *maps, double radius_m, dou
     for (int c = 0; c < maps->atmosphere->table.channels && result == TRL_OK; c++) {
         const struct gpu_region region = gpu_texture_region(&maps->scattered[c], 0);
         result = upload_log(&maps->scattered[c], &region, maps->aerial.scattered[c]);
+    }
+    for (int c = 0; c < AERIAL_SOURCES && result == TRL_OK; c++) {
+        if (maps->source[c].name) {
+            const struct gpu_region region = gpu_texture_region(&maps->source[c], 0);
+            result = upload_log(&maps->source[c], &region, maps->aerial.source[c]);
+        }
     }
     maps->aerial_radius_m = result == TRL_OK ? radius_m : 0;
     maps->aerial_sun_mu = sun_mu;

@@ -11,8 +11,9 @@
 //     sunlight   2D RGBA32F  sun x altitude, direct light on the ground
 //     skylight   2D RGBA32F  sun x altitude, irradiance of level ground by the sky
 //     phase      2D RGBA32F  sine of half the angle, phase functions of peaked constituents
+//     source     3D RGBA32F  as scattered, of each cell alone (aerial.h), for march.h
 //
-// Slice and scattered hold logarithms of XYZ in cd m^-2; the others four bands per unit irradiance
+// Slice, scattered and source hold logarithms of XYZ in cd m^-2; the others four bands per unit irradiance
 // of the star (scatter/bands.h).
 
 #include "gpu/texture.h"
@@ -25,9 +26,10 @@ struct spectral_maps {
     struct gpu_texture slice[1 + TABLE_MAX_PEAKED];
     struct gpu_texture scattered[1 + TABLE_MAX_PEAKED];
     struct gpu_texture extinction, sunlight, skylight, phase;
-    float *texels;         // scratch of one slice
-    double slice_radius_m; // what the slice was made for; 0: nothing yet
-    double slice_sun_mu;   // NAN: all suns
+    struct gpu_texture source[AERIAL_SOURCES]; // where it was asked for
+    float *texels;                             // scratch of one slice
+    double slice_radius_m;                     // what the slice was made for; 0: nothing yet
+    double slice_sun_mu;                       // NAN: all suns
     double aerial_radius_m, aerial_sun_mu;
     double highest_m; // altitude up to which light of the ground is tabulated
 };
@@ -37,6 +39,9 @@ struct spectral_maps {
 TRL_MUST_USE trl_result spectral_maps_init(struct gpu *gpu, struct atmosphere *atmosphere,
                                            struct spectral_maps *out);
 void spectral_maps_finish(struct spectral_maps *maps);
+
+// From the next update on there is a source. Does nothing the second time.
+TRL_MUST_USE trl_result spectral_maps_add_source(struct spectral_maps *maps);
 
 // The eye and star that the maps are made for.
 struct spectral_eye {

@@ -3,6 +3,7 @@
 // The GPU's float and C's double agree on the formulas that are one text for both.
 #include "fixture.h"
 
+#include "shared/penumbra.glsl"
 #include "shared/phase.glsl"
 #include "shared/profile.glsl"
 #include "shared/sky_map.glsl"
@@ -109,12 +110,36 @@ static void maps_agree(void **state)
     gpu_program_finish(&program);
 }
 
+static void shadows_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    gpu_program_set_float(&program, "u_wants_shadow", 1);
+    const float t[] = {-500, -1, -0.7f, -0.005f, 0, 0.4f, 1, 3, 2000};
+    for (size_t i = 0; i < sizeof t / sizeof t[0]; i++) {
+        for (size_t j = 0; j < sizeof t / sizeof t[0]; j++) {
+            const float ends[4] = {t[i], t[j], 0, 0};
+            gpu_program_set_vec4(&program, "u_angle", ends);
+            const struct texel got = draw(f, &program);
+            assert_true(fabs((double)got.rgba[0] - penumbra_visible((double)t[i])) < AGREEMENT);
+            // A difference of two integrals, over as little as 0.02.
+            assert_true(fabs((double)got.rgba[1] - penumbra_mean((double)t[i], (double)t[j])) <
+                        2e-5);
+            if (t[i] >= 1 && t[j] >= 1) {
+                assert_true(got.rgba[1] == 1.0f);
+            }
+        }
+    }
+    gpu_program_finish(&program);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(phase_functions_agree),
         cmocka_unit_test(profiles_agree),
         cmocka_unit_test(maps_agree),
+        cmocka_unit_test(shadows_agree),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }

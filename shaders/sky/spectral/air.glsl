@@ -33,6 +33,10 @@ uniform sampler3D u_scattered3;
 #if PEAKED_COUNT > 0
 uniform sampler2D u_phase; // sine of half the scattering angle x peaked constituent
 #endif
+#ifdef MARCH
+uniform sampler3D u_share; // see sky/march.h
+uniform vec4 u_march;      // nearest and farthest distance, layers that end at a distance
+#endif
 
 float azimuth_coordinate(float mu, float sun_mu, float nu)
 {
@@ -88,6 +92,23 @@ vec3 join_scattered(vec3 at, float nu)
     return sum;
 }
 
+// How much of the light of the air is left by what stands before the star, of XYZ: up to a distance,
+// and of the whole way into space.
+#ifdef MARCH
+vec3 share_before(vec2 uv, float distance_m)
+{
+    float place = sky_map_depth(distance_m, u_march.x, u_march.y) * u_march.z;
+    return textureLod(u_share,
+                      vec3(uv, clamp(place - 0.5, 0.5, u_march.z - 0.5) / (u_march.z + 1.0)), 0.0)
+        .xyz;
+}
+
+vec3 share_to_space(vec2 uv)
+{
+    return textureLod(u_share, vec3(uv, 1.0), 0.0).xyz;
+}
+#endif
+
 // Light of the whole way through the air of a ray that ends in space. From outside the eye stands
 // where the ray enters (Elek 2010 Section 5).
 vec3 sky_light(Ray ray)
@@ -110,6 +131,16 @@ vec3 sky_light(Ray ray)
     return ray.chord_m > 0.0 ? join_slice(at, ray.nu) : vec3(0.0);
 }
 
+// The row of a ray in the maps of aerial perspective, as a texture coordinate.
+float aerial_row(Ray ray)
+{
+    float row = ray.meets_ground
+                    ? sky_map_ground_row(ray.ground_m, u_rows.x, u_rows.y) * (u_aerial_rows.x - 1.0)
+                    : u_aerial_rows.x + sky_map_air_row(ray.mu, u_rows.z, u_rows.w) *
+                                            (u_aerial_rows.y - u_aerial_rows.x - 1.0);
+    return (row + 0.5) * u_aerial_texel.z;
+}
+
 struct Air {
     vec3 scattered;     // XYZ that the air adds
     vec4 transmittance; // what it leaves of the light behind it, in the bands
@@ -118,14 +149,10 @@ struct Air {
 // The air between the eye and a point at `distance_m` on the ray.
 Air air_before(Ray ray, float distance_m)
 {
-    float row = ray.meets_ground
-                    ? sky_map_ground_row(ray.ground_m, u_rows.x, u_rows.y) * (u_aerial_rows.x - 1.0)
-                    : u_aerial_rows.x + sky_map_air_row(ray.mu, u_rows.z, u_rows.w) *
-                                            (u_aerial_rows.y - u_aerial_rows.x - 1.0);
     float depth = sky_map_depth(distance_m, ray.begin_m, ray.end_m);
     float azimuth = azimuth_coordinate(ray.mu, u_eye.z, ray.nu);
-    vec3 at = vec3(centre(depth, u_aerial_texel.x), centre(azimuth, u_aerial_texel.y),
-                   (row + 0.5) * u_aerial_texel.z);
+    vec3 at =
+        vec3(centre(depth, u_aerial_texel.x), centre(azimuth, u_aerial_texel.y), aerial_row(ray));
     float way = clamp(distance_m, ray.begin_m, max(ray.end_m * 1.2, distance_m)) - ray.begin_m;
     Air air;
     air.scattered = join_scattered(at, ray.nu) * way;

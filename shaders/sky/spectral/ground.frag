@@ -5,6 +5,7 @@
 // validate: PEAKED_COUNT 1
 // validate: PEAKED_COUNT 0
 // validate: PEAKED_COUNT 3; SURFACE
+// validate: PEAKED_COUNT 1; SURFACE; MARCH
 
 #include "sky/ground.glsl"
 #include "sky/spectral/air.glsl"
@@ -73,5 +74,8 @@ void main()
     Ray ray;
     Ground ground = find_ground(ray);
     Air air = air_before(ray, ground.distance_m);
+#ifdef MARCH
+    air.scattered *= share_before(v_uv, ground.distance_m);
+#endif
     out_radiance = join_radiance(light_ground(ray, ground) * air.transmittance, air.scattered);
 }

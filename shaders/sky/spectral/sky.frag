@@ -4,6 +4,7 @@
 // validate: PEAKED_COUNT 1
 // validate: PEAKED_COUNT 0; STAR
 // validate: PEAKED_COUNT 3; STAR
+// validate: PEAKED_COUNT 1; MARCH
 
 #include "sky/disc.glsl"
 #include "sky/spectral/air.glsl"
@@ -22,5 +23,9 @@ void main()
 #ifdef STAR
     bands = star_disc(ray) * air_before(ray, ray.end_m).transmittance;
 #endif
-    out_radiance = join_radiance(bands, sky_light(ray));
+    vec3 light = sky_light(ray);
+#ifdef MARCH
+    light *= share_to_space(v_uv);
+#endif
+    out_radiance = join_radiance(bands, light);
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // The formulas that C and GLSL share, at the arguments of a test.
+#include "shared/penumbra.glsl"
 #include "shared/phase.glsl"
 #include "shared/profile.glsl"
 #include "shared/sky_map.glsl"
@@ -10,6 +11,7 @@ uniform vec4 u_shell; // altitude, scale height, centre, half width
 uniform vec4 u_map;   // distance, its largest, cosine of a zenith angle, altitude
 uniform float u_wants_profile;
 uniform float u_wants_map;
+uniform float u_wants_shadow;
 layout(location = 0) out vec4 o_color;
 
 void main()
@@ -23,5 +25,8 @@ void main()
     vec4 maps =
         vec4(sky_map_view(u_map.x, 1000.0, u_map.y), sky_map_sun(u_map.z, -0.07, 0.07, -2.0, 3.4),
              sky_map_sunlight(u_map.z, lowest, 0.01), sky_map_depth(u_map.x, 1000.0, u_map.y));
-    o_color = u_wants_map > 0.5 ? maps : (u_wants_profile > 0.5 ? profiles : phases);
+    vec4 shadows = vec4(penumbra_visible(u_angle.x), penumbra_mean(u_angle.x, u_angle.y), 0.0, 0.0);
+    o_color = u_wants_shadow > 0.5 ? shadows
+              : u_wants_map > 0.5  ? maps
+                                   : (u_wants_profile > 0.5 ? profiles : phases);
 }

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// One step of the march along the rays of a coarse grid over the picture: the light that the air
+// between two distances sends to the eye, as the star alone would make it and as it is with what
+// stands before the star, added to the sums of the nearer steps. Only the share of the first in
+// the second is used, so both may be rough alike.
+//
+// Of the first order, terrain takes what it hides of the star. Light that was scattered before comes
+// from all around, from farther away than shadows of mountains are wide, and is left whole.
+// validate: PEAKED_COUNT 1; SURFACE
+// validate: PEAKED_COUNT 0
+// validate: PEAKED_COUNT 3; SURFACE; TO_SPACE
+
+#include "sky/spectral/air.glsl"
+#ifdef SURFACE
+#include "terrain/shadow.glsl"
+#endif
+
+in vec2 v_uv;
+
+uniform vec2 u_step;     // from and to, m
+uniform sampler2D u_lit; // sums so far; alpha: how far the ray is looked at
+uniform sampler2D u_all;
+uniform sampler3D u_source0; // as u_scattered0, but of each cell alone
+uniform sampler3D u_source_multiple;
+#if PEAKED_COUNT > 0
+uniform sampler3D u_source1;
+#endif
+#if PEAKED_COUNT > 1
+uniform sampler3D u_source2;
+#endif
+#if PEAKED_COUNT > 2
+uniform sampler3D u_source3;
+#endif
+
+layout(location = 0) out vec4 out_lit;
+layout(location = 1) out vec4 out_all;
+layout(location = 2) out vec4 out_share; // of XYZ; alpha: as above
+
+// The terrain's edge is looked for at this many places of a step; between them it is straight.
+const int SHADOW_PARTS = 4;
+// Of what is left of the way into space.
+const int SPACE_PARTS = 8;
+
+struct Source {
+    vec3 first, multiple; // XYZ per m
+};
+
+Source source_at(Ray ray, float azimuth, float row, float distance_m)
+{
+    // Texel d is the middle of the cell between depths d - 1 and d.
+    float depth = sky_map_depth(distance_m, ray.begin_m, ray.end_m);
+    vec3 at = vec3(mix(u_aerial_texel.x, 1.0, depth), azimuth, row);
+    float smooth_phase = phase_rayleigh(ray.nu);
+    Source source;
+    source.first = exp(textureLod(u_source0, at, 0.0).xyz) * smooth_phase;
+    source.multiple = exp(textureLod(u_source_multiple, at, 0.0).xyz) * smooth_phase;
+#if PEAKED_COUNT > 0
+    vec4 phase = peaked_phase(ray.nu);
+    source.first += exp(textureLod(u_source1, at, 0.0).xyz) * phase.x;
+#endif
+#if PEAKED_COUNT > 1
+    source.first += exp(textureLod(u_source2, at, 0.0).xyz) * phase.y;
+#endif
+#if PEAKED_COUNT > 2
+    source.first += exp(textureLod(u_source3, at, 0.0).xyz) * phase.z;
+#endif
+    return source;
+}
+
+#ifdef SURFACE
+// Height above the sphere without a difference of large numbers.
+float altitude_at(Ray ray, float distance_m)
+{
+    float r = u_eye.x;
+    float rise =
+        u_eye.y * (2.0 * u_planet.x + u_eye.y) + distance_m * (2.0 * r * ray.mu + distance_m);
+    return rise / (sqrt(max(u_planet.x * u_planet.x + rise, 0.0)) + u_planet.x);
+}
+
+// Mean over a segment of what terrain leaves of the star, relative to what the level sphere does.
+float terrain_leaves(Ray ray, float from_m, float to_m)
+{
+    float seen = 0.0;
+    vec2 before = terrain_air_shadow(ray.direction * from_m, altitude_at(ray, from_m));
+    for (int i = 1; i <= SHADOW_PARTS; i++) {
+        float s = mix(from_m, to_m, float(i) / float(SHADOW_PARTS));
+        vec2 here = terrain_air_shadow(ray.direction * s, altitude_at(ray, s));
+        float level = penumbra_mean(before.y, here.y);
+        seen += level > 0.01 ? min(penumbra_mean(before.x, here.x) / level, 1.0) : 1.0;
+        before = here;
+    }
+    return seen / float(SHADOW_PARTS);
+}
+#endif
+
+void main()
+{
+    Ray ray = make_pixel_ray(v_uv);
+    vec4 lit = texelFetch(u_lit, ivec2(gl_FragCoord.xy), 0);
+    vec3 all = texelFetch(u_all, ivec2(gl_FragCoord.xy), 0).xyz;
+    float end = min(ray.end_m, lit.w);
+    float from = clamp(u_step.x, ray.begin_m, max(end, ray.begin_m));
+    float to = clamp(u_step.y, from, max(end, from));
+    float azimuth = centre(azimuth_coordinate(ray.mu, u_eye.z, ray.nu), u_aerial_texel.y);
+    float row = aerial_row(ray);
+#ifdef TO_SPACE
+    for (int i = 0; i < SPACE_PARTS; i++) {
+        float x = float(i) / float(SPACE_PARTS);
+        float y = float(i + 1) / float(SPACE_PARTS);
+        float width = (to - from) * (y * y - x * x);
+        Source source = source_at(ray, azimuth, row, from + (to - from) * 0.5 * (x * x + y * y));
+        lit.xyz += (source.first + source.multiple) * width;
+        all += (source.first + source.multiple) * width;
+    }
+#else
+    float visible = 1.0;
+#ifdef SURFACE
+    visible = terrain_leaves(ray, from, to);
+#endif
+    Source source = source_at(ray, azimuth, row, 0.5 * (from + to));
+    lit.xyz += (source.first * visible + source.multiple) * (to - from);
+    all += (source.first + source.multiple) * (to - from);
+#endif
+    out_lit = lit;
+    out_all = vec4(all, 0.0);
+    // Exactly 1 where nothing is hidden.
+    out_share = vec4(
+        mix(lit.xyz / max(all, vec3(1.0e-30)), vec3(1.0), vec3(greaterThanEqual(lit.xyz, all))),
+        lit.w);
+}
