@@ -192,8 +192,8 @@ trl_renderer_change_atmosphere(trl_renderer *renderer, const trl_scene *scene,
 /// drawing again can give a better picture.
 TRL_API bool trl_renderer_is_settled(const trl_renderer *renderer);
 
-/// Finds the light of the air in another way from the next frame on, which compiles programs when it
-/// is the first of that kind.
+/// Finds the light of the air in another way from the next frame on, which compiles programs when
+/// it is the first of that kind.
 /// @return TRL_OK; TRL_ERROR_INVALID (there is no such way)
 TRL_API TRL_MUST_USE trl_result trl_renderer_set_air(trl_renderer *renderer, trl_air air);
 

@@ -34,7 +34,8 @@ struct aerial {
     float *scattered[1 + TABLE_MAX_PEAKED]; // [row][azimuth][depth][TEXEL_FLOATS]
     float *extinction;                      // [row][depth][BAND_COUNT]
     // Layout of `scattered`, depth d standing for the cell that ends at depth d: the first order in
-    // its channels, and AERIAL_MULTIPLE, divided by the Rayleigh phase function. NULL: not asked for
+    // its channels, and AERIAL_MULTIPLE, divided by the Rayleigh phase function. NULL: not asked
+    // for
     float *source[AERIAL_SOURCES];
     struct aerial_worker *workers;
     int worker_count;

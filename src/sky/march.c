@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
-// Pixels of the picture to a cell of the grid, each way: half a degree of a usual view. No shadow in
-// the air has a sharper edge than the star is wide, save one that is looked at along its length.
+// Pixels of the picture to a cell of the grid, each way: half a degree of a usual view. No shadow
+// in the air has a sharper edge than the star is wide, save one that is looked at along its length.
 enum { CELL = 8 };
 static const double SKY_M = 1e29; // a ray that is looked at so far meets no ground
 

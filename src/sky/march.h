@@ -4,12 +4,13 @@
 #define SKY_MARCH_H
 // Shadows in the air of the spectral model. Along the rays of a coarse grid over the picture the
 // source of aerial perspective (scatter/aerial.h) is summed twice, as the star alone makes it and
-// with what hides the star at each place; what the tables give is multiplied by the share of the one
-// in the other. So the picture is that of the tables to the bit where nothing is hidden.
+// with what hides the star at each place; what the tables give is multiplied by the share of the
+// one in the other. So the picture is that of the tables to the bit where nothing is hidden.
 // docs/decisions/020-shadows-in-the-air.md
 //
 //     in   source     as `scattered` of spectral.c, of each cell alone
-//     out  share      3D RGBA32F  grid x distance: of XYZ, up to the distance at which a layer ends;
+//     out  share      3D RGBA32F  grid x distance: of XYZ, up to the distance at which a layer
+//     ends;
 //                                 the last layer is the whole way into space
 //          sums, steps            scratch
 //

@@ -13,8 +13,8 @@
 //     phase      2D RGBA32F  sine of half the angle, phase functions of peaked constituents
 //     source     3D RGBA32F  as scattered, of each cell alone (aerial.h), for march.h
 //
-// Slice, scattered and source hold logarithms of XYZ in cd m^-2; the others four bands per unit irradiance
-// of the star (scatter/bands.h).
+// Slice, scattered and source hold logarithms of XYZ in cd m^-2; the others four bands per unit
+// irradiance of the star (scatter/bands.h).
 
 #include "gpu/texture.h"
 #include "scatter/aerial.h"

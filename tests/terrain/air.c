@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Shadows in the air: what a wall takes out of the light of the air, against brute force; that there
-// is nothing to see without a wall; and the edge of a shadow in the mean over a segment.
+// Shadows in the air: what a wall takes out of the light of the air, against brute force; that
+// there is nothing to see without a wall; and the edge of a shadow in the mean over a segment.
 #include "fixture.h"
 
 #include "scatter/atmosphere.h"

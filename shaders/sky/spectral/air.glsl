@@ -92,8 +92,8 @@ vec3 join_scattered(vec3 at, float nu)
     return sum;
 }
 
-// How much of the light of the air is left by what stands before the star, of XYZ: up to a distance,
-// and of the whole way into space.
+// How much of the light of the air is left by what stands before the star, of XYZ: up to a
+// distance, and of the whole way into space.
 #ifdef MARCH
 vec3 share_before(vec2 uv, float distance_m)
 {

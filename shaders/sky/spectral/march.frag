@@ -5,8 +5,8 @@
 // stands before the star, added to the sums of the nearer steps. Only the share of the first in
 // the second is used, so both may be rough alike.
 //
-// Of the first order, terrain takes what it hides of the star. Light that was scattered before comes
-// from all around, from farther away than shadows of mountains are wide, and is left whole.
+// Of the first order, terrain takes what it hides of the star. Light that was scattered before
+// comes from all around, from farther away than shadows of mountains are wide, and is left whole.
 // validate: PEAKED_COUNT 1; SURFACE
 // validate: PEAKED_COUNT 0
 // validate: PEAKED_COUNT 3; SURFACE; TO_SPACE
