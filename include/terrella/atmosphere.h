@@ -25,6 +25,7 @@ typedef struct trl_sky_desc {
                          ///< for TRL_SKY_SINGLE
     uint64_t paths;      ///< TRL_SKY_REFERENCE: for each query, [2, 1e12]; default 10000
     uint64_t seed;       ///< TRL_SKY_REFERENCE: same seed, same numbers, on any number of threads
+    const trl_rayleigh_desc *rayleigh; ///< TRL_SKY_RAYLEIGH; NULL (default): as the scene asks
 } trl_sky_desc;
 
 enum { TRL_SKY_MAX_ORDERS = 1000 };
@@ -46,6 +47,19 @@ TRL_API TRL_MUST_USE trl_result trl_sky_radiance(trl_context *ctx, const trl_sce
                                                  const trl_sky_desc *desc,
                                                  const trl_sky_query *queries, size_t count,
                                                  double *radiance, double *standard_error);
+
+/// How far the columns that TRL_SKY_RAYLEIGH reads from its texture or its fit are off, relative to
+/// exact integration: over phi in [pi/2, pi] and heights from the sphere to the air's top, 200 x
+/// 200 points (Santana 2017, Section 8.1).
+typedef struct trl_rayleigh_errors {
+    double mean, largest;
+} trl_rayleigh_errors;
+
+/// @param desc  NULL: as the scene asks
+/// @return TRL_OK; TRL_ERROR_INVALID (a field of the desc, named in the log); TRL_ERROR_MEMORY
+TRL_API TRL_MUST_USE trl_result trl_rayleigh_errors_read(trl_context *ctx, const trl_scene *scene,
+                                                         const trl_rayleigh_desc *desc,
+                                                         trl_rayleigh_errors *out);
 
 /// The light transport of one scene, solved for pictures: moments of all orders and the 4D table.
 /// A renderer makes its own; this is for programs that want to know what it costs, or to fill the

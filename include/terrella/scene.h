@@ -38,6 +38,39 @@ TRL_API const char *trl_sky_model_name(trl_sky_model model);
 /// The model of that word. False when there is none, and *out is not touched. Threads: any.
 TRL_API bool trl_sky_model_find(const char *name, trl_sky_model *out);
 
+/// From what TRL_SKY_RAYLEIGH reads the columns of air along lines (Santana 2017, Section 6).
+typedef enum trl_rayleigh_depth {
+    TRL_RAYLEIGH_TEXTURE, ///< a texture of 128 x 64 texels
+    TRL_RAYLEIGH_FIT      ///< polynomials at some heights, fitted when the model is made
+} trl_rayleigh_depth;
+
+/// How TRL_SKY_RAYLEIGH works. It knows one gas whose density falls exponentially: the constituents
+/// that scatter with the Rayleigh phase function, without the others.
+typedef struct trl_rayleigh_desc {
+    uint32_t canary;      ///< set by trl_rayleigh_desc_default(); never touch
+    uint32_t samples;     ///< along a line of sight: odd, [3, TRL_RAYLEIGH_MAX_SAMPLES]; default 5
+    uint32_t wavelengths; ///< of pictures, [3, TRL_RAYLEIGH_MAX_WAVELENGTHS]; default 10
+    trl_rayleigh_depth optical_depth; ///< default TRL_RAYLEIGH_TEXTURE
+    uint32_t fit_heights;    ///< of TRL_RAYLEIGH_FIT, [2, TRL_RAYLEIGH_MAX_HEIGHTS]; default 10
+    uint32_t fit_degree;     ///< the same, [1, TRL_RAYLEIGH_MAX_DEGREE]; default 5
+    bool has_out_scattering; ///< light is lost on its way; default true. False: Santana's
+                             ///< simplified variant, which has no dusk
+    double height_scale; ///< of the air, (0, 1000], to show it higher than it is; straight up the
+                         ///< optical depth stays. Default 1
+    double star_temperature_K; ///< of the black body that colours the light of pictures, [500,
+                               ///< 1e6]; 0 (default): like the scene's star
+} trl_rayleigh_desc;
+
+enum {
+    TRL_RAYLEIGH_MAX_SAMPLES = 65,
+    TRL_RAYLEIGH_MAX_WAVELENGTHS = 40,
+    TRL_RAYLEIGH_MAX_HEIGHTS = 32,
+    TRL_RAYLEIGH_MAX_DEGREE = 7
+};
+
+/// A desc with every default set. Threads: any.
+TRL_API trl_rayleigh_desc trl_rayleigh_desc_default(void);
+
 /// How a view says where a body of the scene is.
 typedef enum trl_body_mode {
     TRL_BODY_ABSENT,   ///< not in the picture, and without effect on it
@@ -107,6 +140,9 @@ TRL_API double trl_scene_top_radius_m(const trl_scene *scene);
 
 /// The model of the sky that the scene asks for; TRL_SKY_SPECTRAL when it does not say.
 TRL_API trl_sky_model trl_scene_sky_model(const trl_scene *scene);
+
+/// How the scene wants TRL_SKY_RAYLEIGH to work; the default where it does not say.
+TRL_API trl_rayleigh_desc trl_scene_rayleigh(const trl_scene *scene);
 
 /// Constituents of the atmosphere. Index below the count, else NULL; names are the scene's.
 TRL_API size_t trl_scene_constituent_count(const trl_scene *scene);

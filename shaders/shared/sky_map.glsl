@@ -55,6 +55,15 @@ SHARED_FN Number sky_map_sunlight(Number mu, Number lowest, Number softness)
            log(1.0 + (1.0 - lowest) / softness);
 }
 
+// Mean height of the star's visible part above the level ground, as a cosine: the direct light is
+// already that of this part alone. Half a disc has its centroid at 4 / (3 pi) of its radius;
+// between none, half and all a parabola.
+SHARED_FN Number visible_height(Number sun_mu, Number disc_sine)
+{
+    Number c = shared_clamp(sun_mu / disc_sine, -1.0, 1.0);
+    return sun_mu > disc_sine ? sun_mu : disc_sine * (c + 1.0) * (0.424 + 0.076 * c);
+}
+
 // The azimuth of a ray from the star's, by its cosine.
 SHARED_FN Number sky_map_azimuth(Number cos_azimuth)
 {

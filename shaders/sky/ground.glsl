@@ -5,6 +5,7 @@
 #ifndef SKY_GROUND_GLSL
 #define SKY_GROUND_GLSL
 
+#include "shared/sky_map.glsl"
 #include "sky/fragment.glsl"
 
 #ifdef SURFACE
@@ -57,14 +58,5 @@ Ground find_ground(out Ray ray)
     return ground;
 }
 #endif
-
-// Mean height of the star's visible part above the level ground, as a cosine: the direct light is
-// already that of this part alone. Half a disc has its centroid at 4 / (3 pi) of its radius;
-// between none, half and all a parabola.
-float visible_height(float sun_mu, float disc_sine)
-{
-    float c = clamp(sun_mu / disc_sine, -1.0, 1.0);
-    return sun_mu > disc_sine ? sun_mu : disc_sine * (c + 1.0) * (0.424 + 0.076 * c);
-}
 
 #endif // SKY_GROUND_GLSL

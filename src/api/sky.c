@@ -3,6 +3,7 @@
 #include <terrella/atmosphere.h>
 
 #include "api/check.h"
+#include "api/rayleigh.h"
 #include "reference/path_tracer.h"
 #include "scatter/query.h"
 #include "scene/scene.h"
@@ -143,10 +144,11 @@ static trl_result trace(const trl_context *ctx, const struct medium *medium,
     return result;
 }
 
-static trl_result answer(const trl_context *ctx, const struct medium *medium,
+static trl_result answer(const trl_context *ctx, const struct trl_scene *scene,
                          const trl_sky_desc *desc, const trl_sky_query *queries, size_t count,
                          double *radiance, double *standard_error)
 {
+    const struct medium *medium = &scene->medium;
     for (size_t n = 0; standard_error && n < count; n++) {
         standard_error[n] = 0;
     }
@@ -155,7 +157,9 @@ static trl_result answer(const trl_context *ctx, const struct medium *medium,
     case TRL_SKY_SINGLE:
         return solve_and_answer(ctx, medium, desc, queries, count, radiance);
     case TRL_SKY_RAYLEIGH:
-        break;
+        return rayleigh_sky_radiance(ctx, medium,
+                                     desc->rayleigh ? desc->rayleigh : &scene->rayleigh, queries,
+                                     count, radiance);
     case TRL_SKY_REFERENCE:
         return trace(ctx, medium, desc, queries, count, radiance, standard_error);
     }
@@ -167,13 +171,14 @@ static trl_result check_desc(const trl_context *ctx, const trl_sky_desc *desc)
 {
     TRL_REQUIRE(ctx, desc->canary == SKY_CANARY);
     TRL_REQUIRE(ctx, desc->max_orders <= TRL_SKY_MAX_ORDERS);
-    if (desc->model == TRL_SKY_SINGLE && desc->max_orders > 1) {
+    const bool has_one_order = desc->model == TRL_SKY_SINGLE || desc->model == TRL_SKY_RAYLEIGH;
+    if (has_one_order && desc->max_orders > 1) {
         return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
-                        "the model \"single\" has one order of scattering, not %u",
-                        desc->max_orders);
+                        "the model \"%s\" has one order of scattering, not %u",
+                        trl_sky_model_name(desc->model), desc->max_orders);
     }
     TRL_REQUIRE(ctx, desc->paths >= 2 && desc->paths <= MAX_PATHS);
-    return TRL_OK;
+    return desc->rayleigh ? check_rayleigh(ctx, desc->rayleigh) : TRL_OK;
 }
 
 trl_result trl_sky_radiance(trl_context *ctx, const trl_scene *scene, const trl_sky_desc *desc,
@@ -191,7 +196,7 @@ trl_result trl_sky_radiance(trl_context *ctx, const trl_scene *scene, const trl_
         result = check_query(ctx, &scene->medium, &queries[n], n);
     }
     if (result == TRL_OK) {
-        result = answer(ctx, &scene->medium, &all, queries, count, radiance, standard_error);
+        result = answer(ctx, scene, &all, queries, count, radiance, standard_error);
     }
     for (size_t n = 0; n < count && result == TRL_OK; n++) {
         if (!isfinite(radiance[n])) {

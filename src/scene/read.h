@@ -38,6 +38,9 @@ TRL_MUST_USE trl_result scene_read_mie(const struct scene_node *node, double hei
 // sky_model of the root; it may be missing.
 TRL_MUST_USE trl_result scene_read_sky_model(const struct scene_node *root, struct trl_scene *out);
 
+// rayleigh of the root, or the default.
+TRL_MUST_USE trl_result scene_read_rayleigh(const struct scene_node *root, trl_rayleigh_desc *out);
+
 // surface.layers and views of the root; both may be missing.
 TRL_MUST_USE trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *out);
 TRL_MUST_USE trl_result scene_read_views(const struct scene_node *root, struct trl_scene *out);

@@ -54,9 +54,9 @@ static trl_result read_name(const struct scene_node *root, struct trl_scene *sce
 static trl_result read_root(const struct scene_node *root, struct trl_scene *scene)
 {
     // Editors find the schema by "$schema"; it says nothing to the reader.
-    const char *const keys[] = {"$schema",   "terrella",   "name",    "star",
-                                "planet",    "atmosphere", "surface", "views",
-                                "sky_model", "bodies",     NULL};
+    const char *const keys[] = {"$schema",   "terrella",   "name",     "star",
+                                "planet",    "atmosphere", "surface",  "views",
+                                "sky_model", "bodies",     "rayleigh", NULL};
     const struct scene_node schema = scene_node_member(root, "$schema");
     const char *ignored = NULL;
     trl_result result = scene_node_check_keys(root, keys);
@@ -74,6 +74,9 @@ static trl_result read_root(const struct scene_node *root, struct trl_scene *sce
     }
     if (result == TRL_OK) {
         result = scene_read_sky_model(root, scene);
+    }
+    if (result == TRL_OK) {
+        result = scene_read_rayleigh(root, &scene->rayleigh);
     }
     if (result == TRL_OK) {
         result = scene_read_layers(root, scene);
@@ -198,6 +201,11 @@ double trl_scene_top_radius_m(const trl_scene *scene)
 trl_sky_model trl_scene_sky_model(const trl_scene *scene)
 {
     return scene->sky_model;
+}
+
+trl_rayleigh_desc trl_scene_rayleigh(const trl_scene *scene)
+{
+    return scene->rayleigh;
 }
 
 size_t trl_scene_constituent_count(const trl_scene *scene)

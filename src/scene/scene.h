@@ -53,6 +53,7 @@ struct trl_scene {
     char *name;
     struct medium medium;
     trl_sky_model sky_model;
+    trl_rayleigh_desc rayleigh;
     size_t layer_count;
     struct layer layers[SCENE_MAX_LAYERS];
     struct scene_detail detail;
