@@ -60,8 +60,10 @@ typedef struct trl_renderer_desc {
     uint32_t wavelengths;   ///< to solve for, [1, TRL_RENDERER_MAX_WAVELENGTHS]; default 16
     int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
     trl_air air;            ///< default TRL_AIR_MARCH
-    bool measures_time;     ///< each draw waits for the GPU and fills trl_renderer_timings; default
-                            ///< false
+    const trl_rayleigh_desc *rayleigh; ///< for TRL_SKY_RAYLEIGH; copied; NULL (default): as the
+                                       ///< scene asks
+    bool measures_time; ///< each draw waits for the GPU and fills trl_renderer_timings; default
+                        ///< false
 } trl_renderer_desc;
 
 /// A desc with every default set; the caller adds the scene. Threads: any.

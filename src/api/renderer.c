@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 #include "api/check.h"
+#include "api/rayleigh.h"
 #include "frame/frame.h"
 #include "scatter/medium_edit.h"
 #include <terrella/renderer.h>
@@ -30,15 +31,16 @@ static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, 
         return TRL_ERROR_MEMORY;
     }
     renderer->ctx = ctx;
-    const struct frame_desc frame = {.ctx = ctx,
-                                     .scene = desc->scene,
-                                     .gl = desc->gl,
-                                     .wavelengths = desc->wavelengths,
-                                     .sky_model = desc->sky_model == TRL_SKY_MODEL_OF_SCENE
-                                                      ? desc->scene->sky_model
-                                                      : (trl_sky_model)desc->sky_model,
-                                     .air = desc->air,
-                                     .measures_time = desc->measures_time};
+    const struct frame_desc frame = {
+        .ctx = ctx,
+        .scene = desc->scene,
+        .gl = desc->gl,
+        .wavelengths = desc->wavelengths,
+        .sky_model = desc->sky_model == TRL_SKY_MODEL_OF_SCENE ? desc->scene->sky_model
+                                                               : (trl_sky_model)desc->sky_model,
+        .rayleigh = desc->rayleigh ? *desc->rayleigh : desc->scene->rayleigh,
+        .air = desc->air,
+        .measures_time = desc->measures_time};
     const trl_result result = frame_init(&frame, &renderer->frame);
     if (result != TRL_OK) {
         mem_free(ctx, renderer);
@@ -61,7 +63,8 @@ trl_result trl_renderer_create(trl_context *ctx, const trl_renderer_desc *desc, 
     TRL_REQUIRE(ctx, desc->gl == TRL_GL_HEADLESS || desc->gl == TRL_GL_CURRENT);
     TRL_REQUIRE(ctx, desc->wavelengths >= 1 && desc->wavelengths <= TRL_RENDERER_MAX_WAVELENGTHS);
     TRL_REQUIRE(ctx, trl_air_name(desc->air) != NULL);
-    return create_frame(ctx, desc, out);
+    const trl_result result = desc->rayleigh ? check_rayleigh(ctx, desc->rayleigh) : TRL_OK;
+    return result == TRL_OK ? create_frame(ctx, desc, out) : result;
 }
 
 void trl_renderer_destroy(trl_renderer **renderer)

@@ -32,6 +32,14 @@ static trl_result make_passes(struct frame *frame, const struct frame_desc *desc
     return result == TRL_OK ? trl_progress(frame->ctx, "building programs", 1) : result;
 }
 
+static struct sky_desc describe_sky(const struct frame *frame)
+{
+    return (struct sky_desc){.gpu = frame->gpu,
+                             .medium = &frame->medium,
+                             .wavelengths = frame->wavelengths,
+                             .rayleigh = &frame->rayleigh};
+}
+
 trl_result frame_set_sky_model(struct frame *frame, trl_sky_model model)
 {
     if ((unsigned)model >= SKY_MODELS) {
@@ -39,7 +47,7 @@ trl_result frame_set_sky_model(struct frame *frame, trl_sky_model model)
                         "pictures are not made by the sky model \"%s\"",
                         model == TRL_SKY_REFERENCE ? "reference" : "?");
     }
-    const struct sky_desc desc = {frame->gpu, &frame->medium, frame->wavelengths};
+    const struct sky_desc desc = describe_sky(frame);
     struct sky *sky = &frame->skies[model];
     const trl_result result = sky->self ? TRL_OK : sky_init(&desc, model, sky);
     frame->sky_model = result == TRL_OK ? model : frame->sky_model;
@@ -56,7 +64,7 @@ trl_result frame_change_atmosphere(struct frame *frame, const struct medium *med
     }
     struct medium old = frame->medium;
     frame->medium = changed;
-    const struct sky_desc desc = {frame->gpu, &frame->medium, frame->wavelengths};
+    const struct sky_desc desc = describe_sky(frame);
     for (int m = 0; m < SKY_MODELS && result == TRL_OK; m++) {
         if (frame->skies[m].self) {
             result = sky_change(&frame->skies[m], &desc);
@@ -73,8 +81,11 @@ bool frame_is_settled(const struct frame *frame)
 
 trl_result frame_init(const struct frame_desc *desc, struct frame *out)
 {
-    *out = (struct frame){
-        .ctx = desc->ctx, .scene = desc->scene, .air = desc->air, .wavelengths = desc->wavelengths};
+    *out = (struct frame){.ctx = desc->ctx,
+                          .scene = desc->scene,
+                          .air = desc->air,
+                          .wavelengths = desc->wavelengths,
+                          .rayleigh = desc->rayleigh};
     trl_result result = medium_copy(desc->ctx, &desc->scene->medium, &out->medium);
     if (result == TRL_OK) {
         result = open_gpu(desc, &out->gpu);

@@ -29,6 +29,7 @@ struct frame_desc {
     uint32_t wavelengths;
     trl_sky_model sky_model;
     trl_air air;
+    trl_rayleigh_desc rayleigh; // checked
     bool measures_time;
 };
 
@@ -41,9 +42,9 @@ struct frame {
     struct sky skies[SKY_MODELS]; // by trl_sky_model; made when first asked for
     trl_sky_model sky_model;      // that frames are drawn with
     struct sky_spheres spheres;
-
     trl_air air;
     uint32_t wavelengths;
+    trl_rayleigh_desc rayleigh;
     struct exposure exposure;
     struct tone tone;
     struct frame_clock clock;

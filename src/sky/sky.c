@@ -10,6 +10,7 @@ static const struct sky_model *find_model(trl_sky_model model)
     case TRL_SKY_SINGLE:
         return &sky_single;
     case TRL_SKY_RAYLEIGH:
+        return &sky_rayleigh;
     case TRL_SKY_REFERENCE:
         return NULL; // paths are traced without OpenGL
     }

@@ -17,8 +17,9 @@
 
 struct sky_desc {
     struct gpu *gpu;
-    const struct medium *medium; // must outlive the sky
-    uint32_t wavelengths;        // to solve for, by models that solve
+    const struct medium *medium;       // must outlive the sky
+    uint32_t wavelengths;              // to solve for, by models that solve
+    const trl_rayleigh_desc *rayleigh; // needed during create only, checked
 };
 
 struct sky_surface {
@@ -75,6 +76,7 @@ struct sky_model {
 
 extern const struct sky_model sky_spectral; // spectral.c
 extern const struct sky_model sky_single;   // single.c
+extern const struct sky_model sky_rayleigh; // rayleigh.c
 
 enum { SKY_MODELS = TRL_SKY_RAYLEIGH + 1 }; // that make pictures
 
