@@ -49,8 +49,8 @@ struct rayleigh_coefficients rayleigh_at(const struct rayleigh *model, double nm
 // ground where the view meets it. No disc of the star.
 double rayleigh_radiance(const struct rayleigh *model, const struct query_view *view, double nm);
 
-// The star's light in pictures: a black body through the single-lobe fit of the observer's functions
-// (Section 4), at the middles of even parts of 380 to 780 nm.
+// The star's light in pictures: a black body through the single-lobe fit of the observer's
+// functions (Section 4), at the middles of even parts of 380 to 780 nm.
 struct rayleigh_star {
     double temperature_K;
     double luminance; // cd m^-2 of a radiance of 1 per unit irradiance of the star (sr^-1) at all

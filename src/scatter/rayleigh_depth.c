@@ -12,7 +12,8 @@
 enum { EXACT_NODES = 48, FIT_POINTS = 129 };
 
 // The inverse air mass bends at the zenith cosine sqrt(2 H / R), where a line stops being level.
-// Ten times that leaves a curve that few texels and low polynomials follow; found by trying 1 to 12.
+// Ten times that leaves a curve that few texels and low polynomials follow; found by trying 1 to
+// 12.
 #define SOFTNESS 10.0
 
 RayleighAir rayleigh_air_make(double ground_radius_m, double height_m, double scale_height_m)

@@ -66,7 +66,7 @@ static int set_up(void **state)
     assert_int_equal(trl_context_create(&context, &f->ctx), TRL_OK);
     assert_int_equal(trl_scene_load(f->ctx, SINGLE_FRAME_SCENE, &f->scene), TRL_OK);
     assert_int_equal(gpu_create_headless(f->ctx, &f->gpu), TRL_OK);
-    const struct sky_desc desc = {f->gpu, &f->scene->medium, LANES};
+    const struct sky_desc desc = {.gpu = f->gpu, .medium = &f->scene->medium, .wavelengths = LANES};
     assert_int_equal(sky_init(&desc, TRL_SKY_SINGLE, &f->sky), TRL_OK);
     make_texture(f, GPU_FORMAT_RGBA32F, &f->position);
     make_texture(f, GPU_FORMAT_RGBA8, &f->albedo);

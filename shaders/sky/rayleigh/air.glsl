@@ -10,8 +10,9 @@
 #include "shared/rayleigh.glsl"
 #include "sky/ray.glsl"
 
-uniform vec4 u_air;                 // ground radius, height, scale height, softness of the map
-uniform vec4 u_spectrum[WAVELENGTHS]; // colour of the star's light, in all cd m^-2 of a radiance of 1
+uniform vec4 u_air; // ground radius, height, scale height, softness of the map
+uniform vec4
+    u_spectrum[WAVELENGTHS];        // colour of the star's light, in all cd m^-2 of a radiance of 1
                                     // per unit irradiance; w: extinction, per m
 uniform vec4 u_matter[WAVELENGTHS]; // scattering, per m; albedo of the bare sphere
 #ifdef FIT_HEIGHTS

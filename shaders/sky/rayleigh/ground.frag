@@ -43,7 +43,8 @@ void main()
     light += max(star_through(view), vec3(0.0)) * u_night_light * ground.lights;
 #else
     for (int k = 0; k < WAVELENGTHS; k++) {
-        light += u_spectrum[k].rgb * (u_matter[k].y * share * exp(-u_spectrum[k].w * (view + star)));
+        light +=
+            u_spectrum[k].rgb * (u_matter[k].y * share * exp(-u_spectrum[k].w * (view + star)));
     }
 #endif
     out_radiance = vec4(light, 1.0);
