@@ -220,7 +220,7 @@ static void check(struct fixture *f, const struct camera *camera, const char *na
             errors[count++] = worst / largest;
         }
     }
-    assert_true(count > 20);
+    assert_true(count > 4); // of the distances, few lie in terrain as seen from far above
     qsort(errors, count, sizeof *errors, compare_floats);
     const double median = (double)errors[count / 2];
     const double most = (double)errors[count - 1 - count / 20];
