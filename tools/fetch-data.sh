@@ -216,7 +216,7 @@ is_wanted() { # index
 # One line that changes with whatever the rasters are made from: this list, the tool's source, the archives.
 stamp_now() { # archives that are used
     (
-        cat "$sources" "$tools"/prepare/*.[ch]
+        cat "$sources" "$tools"/prepare/*.{[ch],py}
         printf '%s\n' "$@"
     ) | sha256sum | cut -d " " -f 1
 }
@@ -248,8 +248,20 @@ unpack_all() { # folder
     done
 }
 
+# The table of stars, where its archive is to be had.
+star_source=package/data/stars.8.json
+make_stars() { # unpacked
+    [ -f "$1/$star_source" ] || return 0
+    mkdir -p "$data/stars"
+    python3 "$tools/prepare/stars.py" "$1/$star_source" "$data/stars/stars.csv" ||
+        die "the table of stars could not be made"
+}
+
 is_complete() {
     local name
+    if [[ " ${used[*]} " == *" d3-celestial@"* ]] && [ ! -f "$data/stars/stars.csv" ]; then
+        return 1
+    fi
     for name in "${outputs[@]}"; do
         [ -f "$data/earth/$name" ] || return 1
     done
@@ -262,7 +274,7 @@ make_rasters() { # prepare-tool
         return 0
     fi
     if [ ${#failed[@]} -ne 0 ]; then
-        echo "data: goes on without ${failed[*]}: colour and lights in 2700 x 1350"
+        echo "data: goes on without ${failed[*]}: what docs/data.md says they are for is coarser or missing"
     fi
     [ -x "$1" ] || die "$1 is not built; run make build first"
     local unpacked=$data/unpacked
@@ -272,6 +284,7 @@ make_rasters() { # prepare-tool
     rm -f "$data/earth/stamp"
     echo "data: making the rasters of Earth (about 15 s)"
     "$1" "$unpacked" "$data/earth" || die "the rasters could not be made"
+    make_stars "$unpacked"
     rm -rf "$unpacked"
     echo "$stamp" >"$data/earth/stamp"
     echo "data: $(du -sh "$data/earth" | cut -f 1) in $data/earth, made in $((SECONDS - began)) s; licences: data/LICENCES.md"
