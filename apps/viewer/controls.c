@@ -277,6 +277,7 @@ static bool turn_sun(struct viewer *viewer, double elapsed_s)
     const double step_rad = sun_speed_rad_s * elapsed_s;
     view->sun_longitude_or_azimuth_rad =
         remainder(view->sun_longitude_or_azimuth_rad + hour * step_rad, 2.0 * pi);
+    view->sidereal_rad = remainder(view->sidereal_rad - hour * step_rad, 2.0 * pi);
     for (int i = 0; i < TRL_VIEW_MAX_BODIES; i++) { // the planet turns below them all
         view->bodies[i].longitude_or_azimuth_rad =
             remainder(view->bodies[i].longitude_or_azimuth_rad + hour * step_rad, 2.0 * pi);

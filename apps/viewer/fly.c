@@ -280,6 +280,7 @@ trl_view fly_flight_view(const struct fly_flight *flight, double elapsed_s)
     trl_view view = flight->from_view;
     fly_camera_to_view(&camera, &view);
     set_flight_sun(flight, t, &view);
+    view.sidereal_rad = t < 0.5 ? flight->from_view.sidereal_rad : flight->to_view.sidereal_rad;
     memcpy(view.bodies, t < 0.5 ? flight->from_view.bodies : flight->to_view.bodies,
            sizeof view.bodies);
     view.exposure_bias_ev =

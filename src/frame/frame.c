@@ -7,6 +7,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <unistd.h>
 
 static trl_result open_gpu(const struct frame_desc *desc, struct gpu **gpu)
 {
@@ -70,6 +71,7 @@ trl_result frame_change_atmosphere(struct frame *frame, const struct medium *med
             result = sky_change(&frame->skies[m], &desc);
         }
     }
+    space_change(&frame->space);
     medium_finish(frame->ctx, &old);
     return result;
 }
@@ -77,6 +79,27 @@ trl_result frame_change_atmosphere(struct frame *frame, const struct medium *med
 bool frame_is_settled(const struct frame *frame)
 {
     return sky_is_settled(&frame->skies[frame->sky_model]);
+}
+
+// What is beyond the air. A catalogue that may be missing is left out when it is.
+static trl_result make_space(struct frame *frame)
+{
+    const struct trl_scene *scene = frame->scene;
+    const struct scene_stars *stars = &scene->stars;
+    const bool is_left_out = stars->is_optional && stars->path && access(stars->path, F_OK) != 0;
+    struct space_desc desc = {.gpu = frame->gpu,
+                              .medium = &frame->medium,
+                              .catalogue_path = is_left_out ? NULL : stars->path,
+                              .limit_magnitude = stars->limit_magnitude,
+                              .pole_right_ascension_rad = stars->pole_right_ascension_rad,
+                              .pole_declination_rad = stars->pole_declination_rad,
+                              .background_cd_m2 = stars->background_cd_m2};
+    daylight_ground_albedo(&scene->medium, desc.ground_albedo);
+    if (is_left_out) {
+        trl_log(frame->ctx, TRL_LOG_INFO, TRL_LOG_ITEM_SCENE, "no stars: there is no file %s",
+                stars->path);
+    }
+    return space_init(&desc, &frame->space);
 }
 
 trl_result frame_init(const struct frame_desc *desc, struct frame *out)
@@ -95,6 +118,9 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
     }
     if (result == TRL_OK) {
         result = frame_set_sky_model(out, desc->sky_model);
+    }
+    if (result == TRL_OK) {
+        result = make_space(out);
     }
     if (result == TRL_OK) {
         result = make_passes(out, desc);
@@ -125,6 +151,7 @@ void frame_finish(struct frame *frame)
         for (int m = 0; m < SKY_MODELS; m++) {
             sky_finish(&frame->skies[m]);
         }
+        space_finish(&frame->space);
         ground_finish(&frame->ground);
     }
     gpu_destroy(&frame->gpu);
@@ -202,7 +229,8 @@ struct camera_place frame_place(const struct frame *frame, double latitude_rad,
                                  .body_count = frame->scene->body_count};
 }
 
-static trl_result draw_radiance(struct frame *frame, const struct camera *camera)
+static trl_result draw_radiance(struct frame *frame, const struct camera *camera,
+                                double sidereal_rad)
 {
     trl_result result = ground_draw(&frame->ground, camera, &frame->clock);
     const struct sky_view view = {.camera = camera,
@@ -221,6 +249,10 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "sky");
         result = sky_draw(sky, &view);
+    }
+    if (result == TRL_OK) {
+        frame_clock_part(&frame->clock, "stars");
+        result = space_draw(&frame->space, &view, sidereal_rad);
     }
     return result;
 }
@@ -261,7 +293,7 @@ trl_result frame_draw(struct frame *frame, const struct frame_request *request)
         camera_resolve(view, &place, (double)request->width / request->height);
     frame->is_drawn = false;
     frame_clock_start(&frame->clock);
-    result = draw_radiance(frame, &camera);
+    result = draw_radiance(frame, &camera, view->sidereal_rad);
     if (result == TRL_OK) {
         result = develop(frame, request);
     }

@@ -6,6 +6,7 @@
 //
 //     ground    -> position, depth, albedo, normal, lights      src/terrain
 //     sky       -> radiance: ground lit, air, sun               src/sky
+//     stars     -> radiance: what is beyond the air, added      src/sky/space.h
 //     exposure  -> EV100 and factor                             exposure.h
 //     tone      -> picture                                      tone.h
 //
@@ -21,6 +22,7 @@
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "sky/sky.h"
+#include "sky/space.h"
 
 struct frame_desc {
     const trl_context *ctx;
@@ -40,6 +42,7 @@ struct frame {
     struct ground ground;
     struct medium medium;         // the scene's, with the atmosphere that was changed to; a copy
     struct sky skies[SKY_MODELS]; // by trl_sky_model; made when first asked for
+    struct space space;
     trl_sky_model sky_model;      // that frames are drawn with
     struct sky_spheres spheres;
     trl_air air;

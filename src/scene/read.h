@@ -45,6 +45,9 @@ TRL_MUST_USE trl_result scene_read_rayleigh(const struct scene_node *root, trl_r
 TRL_MUST_USE trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *out);
 TRL_MUST_USE trl_result scene_read_views(const struct scene_node *root, struct trl_scene *out);
 
+// stars of the root; they may be missing.
+TRL_MUST_USE trl_result scene_read_stars(const struct scene_node *root, struct trl_scene *out);
+
 // bodies of the root, which may be missing, and those of a view.
 TRL_MUST_USE trl_result scene_read_bodies(const struct scene_node *root, struct trl_scene *out);
 TRL_MUST_USE trl_result scene_read_body_places(const struct scene_node *node,

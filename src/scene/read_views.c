@@ -131,7 +131,7 @@ static trl_result read_view(const struct scene_node *node, const struct trl_scen
 {
     *out = trl_view_default();
     trl_result result = scene_node_check_keys(
-        node, (const char *const[]){"camera", "sun", "bodies", "exposure", NULL});
+        node, (const char *const[]){"camera", "sun", "sidereal_deg", "bodies", "exposure", NULL});
     const struct scene_node camera = scene_node_member(node, "camera");
     const struct scene_node sun = scene_node_member(node, "sun");
     const struct scene_node bodies = scene_node_member(node, "bodies");
@@ -141,6 +141,10 @@ static trl_result read_view(const struct scene_node *node, const struct trl_scen
     }
     if (result == TRL_OK) {
         result = read_sun(&sun, out);
+    }
+    if (result == TRL_OK) {
+        const struct scene_angle sidereal = {"sidereal_deg", &turns_deg, &out->sidereal_rad, true};
+        result = scene_read_angles(node, &sidereal, 1);
     }
     if (result == TRL_OK && bodies.value) {
         result = scene_read_body_places(&bodies, scene, out);

@@ -48,6 +48,15 @@ struct scene_body {
 // What a body's distance must be above, in metres: clear of the planet and its air.
 double scene_body_nearest_m(const struct trl_scene *scene, const struct scene_body *body);
 
+// The sky around.
+struct scene_stars {
+    char *file, *path; // owned, as those of a layer; NULL: no catalogue
+    bool is_optional;
+    double limit_magnitude;                                // fainter ones are left out
+    double pole_right_ascension_rad, pole_declination_rad; // of the planet's north pole
+    double background_cd_m2; // of everything that is no single star; 0: none
+};
+
 struct trl_scene {
     const trl_context *ctx;
     char *name;
@@ -57,6 +66,7 @@ struct trl_scene {
     size_t layer_count;
     struct layer layers[SCENE_MAX_LAYERS];
     struct scene_detail detail;
+    struct scene_stars stars;
     size_t body_count;
     struct scene_body bodies[SCENE_MAX_BODIES];
     size_t view_count;
