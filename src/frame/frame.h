@@ -43,7 +43,7 @@ struct frame {
     struct medium medium;         // the scene's, with the atmosphere that was changed to; a copy
     struct sky skies[SKY_MODELS]; // by trl_sky_model; made when first asked for
     struct space space;
-    trl_sky_model sky_model;      // that frames are drawn with
+    trl_sky_model sky_model; // that frames are drawn with
     struct sky_spheres spheres;
     trl_air air;
     uint32_t wavelengths;
