@@ -12,7 +12,7 @@ VIEWS ?= orbit himalaya-morning rockies-sunset
 # Mesa compiles shaders at the first draw, which takes longer than drawing; what it made is kept.
 export MESA_SHADER_CACHE_DIR ?= $(or $(XDG_CACHE_HOME),$(HOME)/.cache)/terrella/shaders
 
-.PHONY: help setup build data demo view test bench clean
+.PHONY: help setup build data demo view test bench validate clean
 
 help: ## lists these tasks
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -43,9 +43,12 @@ test: build ## every test; the last line counts them
 	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
 	@tools/run-tests.sh $(BUILD)
 
-bench: build ## measures speed and memory, prints a table; BENCH="solver --json" for one
+bench: build ## measures speed and memory, prints tables; BENCH=papers beside published numbers
 	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
 	@$(TERRELLA) bench $(BENCH)
+
+validate: build ## compares the models of the sky with the path tracer: report.html, nine minutes
+	@$(TERRELLA) validate --html report.html $(VALIDATE)
 
 clean: ## removes what was built, not the data
 	rm -rf build demo

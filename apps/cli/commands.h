@@ -12,5 +12,6 @@ enum exit_status command_sky(int argc, char **argv);
 enum exit_status command_view(int argc, char **argv);
 enum exit_status command_info(int argc, char **argv);
 enum exit_status command_bench(int argc, char **argv);
+enum exit_status command_validate(int argc, char **argv);
 
 #endif // CLI_COMMANDS_H

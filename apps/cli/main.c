@@ -20,6 +20,8 @@ static const struct command commands[] = {
     {"view", "Fly through a scene in a window.", command_view},
     {"info", "Show versions, what OpenGL offers, and data found and missing.", command_info},
     {"bench", "Measure speed and memory.", command_bench},
+    {"validate", "Compare the models of the sky with a path tracer; makes a report.",
+     command_validate},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 

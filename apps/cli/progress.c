@@ -53,9 +53,26 @@ static void print_line(struct progress *progress, double fraction, double now)
     progress->is_line_shown = progress->is_terminal;
 }
 
+void progress_set_part(struct progress *progress, const char *name, double begin, double end)
+{
+    progress->is_part = end > 0;
+    progress->part_begin = begin;
+    progress->part_end = end;
+    if (progress->is_part) {
+        snprintf(progress->stage, sizeof progress->stage, "%s", name);
+        progress->stage_started_s = progress->started_s;
+    } else {
+        progress->stage[0] = '\0';
+    }
+}
+
 bool progress_report(void *user, const char *stage, double fraction)
 {
     struct progress *progress = user;
+    if (progress->is_part) {
+        stage = progress->stage;
+        fraction = progress->part_begin + (progress->part_end - progress->part_begin) * fraction;
+    }
     if (interrupt_is_pending()) {
         return false;
     }

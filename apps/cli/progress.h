@@ -15,6 +15,8 @@ struct progress {
     double stage_started_s;
     double last_shown_s;
     char stage[80];
+    bool is_part; // what is reported is a part of a larger work
+    double part_begin, part_end;
 };
 
 // Seconds of a clock that only goes forward.
@@ -24,6 +26,10 @@ void progress_begin(struct progress *progress, bool is_quiet);
 
 // A trl_progress_fn; `user` is the struct progress. False once the program was asked to stop.
 bool progress_report(void *user, const char *stage, double fraction);
+
+// From now on what calls report is the part of the whole work between two fractions, under this
+// name; `begin` = `end` = 0 ends that.
+void progress_set_part(struct progress *progress, const char *name, double begin, double end);
 
 // Removes the line, so that something else can be printed.
 void progress_clear(struct progress *progress);

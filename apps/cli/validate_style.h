@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef CLI_VALIDATE_STYLE_H
+#define CLI_VALIDATE_STYLE_H
+// How the page of validate looks.
+
+static const char validate_style[] =
+    ":root{color-scheme:light;--ink:#1d2026;--faint:#666b75;--line:#e2e2dd;--paper:#fbfbf9}"
+    "*{box-sizing:border-box}"
+    "body{margin:0 auto;padding:2rem 1.25rem 4rem;max-width:74rem;color:var(--ink);"
+    "background:var(--paper);font:16px/1.55 system-ui,-apple-system,'Segoe UI',Roboto,"
+    "'Helvetica Neue',Arial,sans-serif}"
+    "h1{font-size:1.75rem;line-height:1.2;margin:0 0 .75rem}"
+    "h2{font-size:1.35rem;margin:3rem 0 .5rem;padding-top:1rem;border-top:1px solid var(--line)}"
+    "h3{font-size:1.05rem;margin:2rem 0 .5rem}"
+    "p{max-width:44rem;margin:.5rem 0}"
+    ".summary{font-size:1.15rem;padding:.9rem 1.1rem;border-radius:.5rem;max-width:none;"
+    "background:#e6f3e8;border-left:.35rem solid #3d9150}"
+    ".summary.noisy{background:#f6f1e0;border-color:#b79b3a}"
+    ".summary.bad{background:#fae5e2;border-color:#c0392b}"
+    ".faint,figcaption,.key{color:var(--faint);font-size:.875rem}"
+    ".scroll{overflow-x:auto;margin:.75rem 0}"
+    "table{border-collapse:collapse;font-variant-numeric:tabular-nums}"
+    "th,td{padding:.3rem .7rem;text-align:right;white-space:nowrap;border-bottom:1px solid "
+    "var(--line)}"
+    "th{font-weight:600;font-size:.875rem}"
+    "th:first-child,td:first-child{text-align:left}"
+    "td.e0{background:#dcefe0}td.e1{background:#eef6e4}td.e2{background:#fbf3d6}"
+    "td.e3{background:#fbe3c8}td.e4{background:#f6cdbb}td.e5{background:#eeb0a6}"
+    "td.none{color:#a0a3aa}"
+    ".key span{display:inline-block;padding:.1rem .55rem;margin:.15rem .2rem .15rem 0;"
+    "border-radius:.2rem}"
+    ".k0{background:#dcefe0}.k1{background:#eef6e4}.k2{background:#fbf3d6}.k3{background:#fbe3c8}"
+    ".k4{background:#f6cdbb}.k5{background:#eeb0a6}"
+    ".verdict{font-size:.8rem;font-weight:600;padding:.1rem .5rem;border-radius:1rem;"
+    "margin-left:.5rem;background:#dcefe0;color:#22662f;white-space:nowrap}"
+    ".verdict.noisy{background:#f6ecc9;color:#775f10}.verdict.bad{background:#f5cfc9;color:#8c2116}"
+    ".view{display:grid;grid-template-columns:repeat(auto-fit,minmax(13rem,1fr));gap:1rem;"
+    "align-items:start}"
+    "figure{margin:0}figure img,figure svg{display:block;width:100%;height:auto;"
+    "border-radius:.2rem}"
+    "figure img+img{margin-top:.35rem;border:1px solid var(--line)}"
+    "figcaption{margin-top:.35rem;line-height:1.4}figcaption b{color:var(--ink)}"
+    ".bar{height:.8rem;max-width:22rem;border-radius:.2rem;border:1px solid var(--line);"
+    "background:linear-gradient(90deg,rgb(24,57,122),rgb(72,130,190),rgb(168,204,228),"
+    "rgb(247,246,243),rgb(245,196,160),rgb(217,110,74),rgb(133,19,36))}"
+    ".ends{display:flex;justify-content:space-between;max-width:22rem}"
+    "a{color:#2b5ea7}"
+    "svg text{font:10px system-ui,sans-serif;fill:var(--faint)}"
+    "@media(max-width:40rem){body{padding:1.25rem .8rem 3rem;font-size:15px}"
+    "h1{font-size:1.4rem}th,td{padding:.25rem .45rem;font-size:.875rem}"
+    ".view{grid-template-columns:repeat(auto-fit,minmax(9.5rem,1fr));gap:.75rem}"
+    ".view figure.plot{grid-column:1/-1}}";
+
+#endif // CLI_VALIDATE_STYLE_H
