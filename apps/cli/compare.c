@@ -181,7 +181,8 @@ static void draw_legend(struct canvas *sheet, const struct layout *l, const char
     const int x = column_x(l, 0);
     const int bar_width = 4 * l->width / 5;
     const int bar_x = x + (l->width - bar_width) / 2;
-    int y = l->maps_y + l->height / 2 - 4 * l->line;
+    const int middle = l->height / 2 - 4 * l->line;
+    int y = l->maps_y + (middle > 0 ? middle : 0); // never into the picture above
     char words[96];
     snprintf(words, sizeof words, "luminance compared with %s", base);
     write_centred(sheet, l, x + l->width / 2, y, words);
