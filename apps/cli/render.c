@@ -5,14 +5,16 @@
 #include "commands.h"
 #include "compare.h"
 #include "output.h"
+#include "render_reference.h"
 #include "shrink.h"
 #include "view_options.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <strings.h>
 
-enum { TIMINGS_MAX = 64 };
+enum { TIMINGS_MAX = 64, DRAWN_OPTIONS = 7 };
 static const char default_output[] = "terrella.png";
 
 struct render_arguments {
@@ -23,6 +25,7 @@ struct render_arguments {
     struct view_choice view;
     const char *compare; // models between commas; NULL: one picture
     struct compare_models models;
+    struct traced_arguments traced;
     bool lists_views;
     bool shows_timings;
     bool is_quiet;
@@ -39,13 +42,13 @@ static const char examples[] =
     "      -o himalaya.png\n"
     "  terrella render scenes/earth.json --view orbit --sun-elevation 10 \\\n"
     "      --sun-azimuth 90 -o orbit.exr\n"
-    "  terrella render scenes/earth.json --view limb --compare spectral,single\n";
+    "  terrella render scenes/earth.json --view limb --compare spectral,single\n"
+    "  terrella render scenes/earth.json --view orbit --size 320x180 \\\n"
+    "      --reference --paths 256 -o traced.exr --error error.exr\n";
 
-static enum options_outcome read_arguments(int argc, char **argv, struct render_arguments *out)
+static void make_options(struct render_arguments *out, struct option options[])
 {
-    *out = (struct render_arguments){
-        .output = default_output, .samples = {.value = 1}, .view = view_choice_default()};
-    const struct option picture[] = {
+    const struct option drawn[DRAWN_OPTIONS] = {
         {.name = "output",
          .letter = 'o',
          .kind = OPTION_TEXT,
@@ -87,6 +90,16 @@ static enum options_outcome read_arguments(int argc, char **argv, struct render_
          .target.flag = &out->is_quiet,
          .help = "No progress line and no closing line."},
     };
+    memcpy(options, drawn, sizeof drawn);
+    traced_make_options(&out->traced, options + DRAWN_OPTIONS);
+}
+
+static enum options_outcome read_arguments(int argc, char **argv, struct render_arguments *out)
+{
+    *out = (struct render_arguments){
+        .output = default_output, .samples = {.value = 1}, .view = view_choice_default()};
+    struct option picture[DRAWN_OPTIONS + TRACED_OPTIONS];
+    make_options(out, picture);
     const struct view_command command = {
         .name = "render",
         .about = about,
@@ -267,10 +280,18 @@ static enum exit_status render_scene(struct app *app, const trl_scene *scene,
     if (status == EXIT_OK) {
         status = output_check_writable(arguments->output);
     }
+    if (status == EXIT_OK && arguments->traced.error) {
+        status = output_check_writable(arguments->traced.error);
+    }
     if (status == EXIT_OK && arguments->compare) {
         const struct compare_desc sheet = make_comparison(app, scene, &view, arguments);
         status = report_result(compare_write(&sheet, arguments->is_quiet ? NULL : stdout));
         size = compare_sheet_size(&sheet);
+    } else if (status == EXIT_OK && arguments->traced.is_wanted) {
+        const struct traced_picture picture = {scene, &view, arguments->size, arguments->output,
+                                               format == PICTURE_EXR};
+        status = report_result(traced_draw(app, &arguments->traced, &picture));
+        progress_clear(&app->progress);
     } else if (status == EXIT_OK) {
         status = report_result(draw_picture(app, scene, &view, arguments, format));
     }
@@ -279,6 +300,18 @@ static enum exit_status render_scene(struct app *app, const trl_scene *scene,
                progress_clock_s() - app->progress.started_s);
     }
     return status;
+}
+
+static enum exit_status check_arguments(const struct render_arguments *arguments)
+{
+    const bool is_drawn = arguments->compare || arguments->shows_timings ||
+                          arguments->samples.value > 1 ||
+                          arguments->view.sky_model != TRL_SKY_MODEL_OF_SCENE;
+    if (arguments->traced.is_wanted && is_drawn) {
+        return report_error(EXIT_USAGE, "render: --reference cannot be given with --compare, "
+                                        "--samples, --timings or --sky-model");
+    }
+    return traced_check(&arguments->traced);
 }
 
 enum exit_status command_render(int argc, char **argv)
@@ -290,7 +323,7 @@ enum exit_status command_render(int argc, char **argv)
     }
     enum picture_format format = PICTURE_PNG;
     if (choose_format(arguments.output, &format) != EXIT_OK ||
-        complete_arguments(&arguments) != EXIT_OK) {
+        complete_arguments(&arguments) != EXIT_OK || check_arguments(&arguments) != EXIT_OK) {
         return EXIT_USAGE;
     }
     struct app app;

@@ -10,6 +10,7 @@
 #include <terrella/base.h>
 #include <terrella/context.h>
 #include <terrella/image.h>
+#include <terrella/reference.h>
 #include <terrella/renderer.h>
 #include <terrella/scene.h>
 

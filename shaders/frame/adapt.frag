@@ -4,7 +4,7 @@
 // eye has followed. In: cells (RG32F of meter.frag), the exposure so far (RG32F, 1 x 1). Out:
 // RG32F, EV100 and what luminance is multiplied with.
 
-#include "shared/tone.glsl"
+#include "shared/meter.glsl"
 
 uniform sampler2D u_cells;
 uniform sampler2D u_before;
@@ -12,15 +12,6 @@ uniform float u_follow;  // share of the way to the new exposure, 1: at once
 uniform float u_bias_ev; // brightness asked for, in stops
 
 layout(location = 0) out vec2 out_exposure;
-
-const float EV_MIN = -10.0;
-const float EV_MAX = 24.0;
-const float EV_UNLIT = 15.0; // of a picture without any light: that of a bright day
-
-// Below this mean luminance a picture gets darker by a quarter of a stop for each stop that the
-// scene does: dusk looks like dusk, and a moonless night is dark but can be seen.
-const float LOG2_DIM = 2.0; // 4 cd m^-2
-const float DIM_SLOPE = 0.25;
 
 float find_target(float before_ev)
 {
@@ -32,11 +23,9 @@ float find_target(float before_ev)
         }
     }
     if (sums.x <= 0.0) {
-        return u_follow < 1.0 ? before_ev : EV_UNLIT;
+        return u_follow < 1.0 ? before_ev : METER_EV_UNLIT;
     }
-    float mean = sums.y / sums.x;
-    float dimming = DIM_SLOPE * max(LOG2_DIM - mean, 0.0);
-    return clamp(mean - TONE_LOG2_MEAN_PER_EV0 + dimming, EV_MIN, EV_MAX);
+    return meter_exposure(sums.x, sums.y);
 }
 
 void main()

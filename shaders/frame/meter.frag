@@ -3,13 +3,8 @@
 // Light meter, first step: one texel looks at a cell of the picture through a regular grid of
 // samples. In: radiance (RGBA32F, linear sRGB cd m^-2). Out: RG32F, sum of weights, weighted sum of
 // log2 luminance.
-//
-// The weight is the square root of luminance: black space has none, so a small lit planet is
-// exposed as if it filled the picture; a thin crescent outweighs the night beside it; but bright
-// parts do not rule alone. What is brighter than a sunlit white wall is a light source and counts
-// as such a wall: the star's disc covers too little to matter.
 
-#include "shared/shared.glsl"
+#include "shared/meter.glsl"
 
 uniform sampler2D u_radiance;
 uniform vec2 u_cells;       // size of the target
@@ -17,19 +12,16 @@ uniform float u_wall_cd_m2; // luminance of a white wall that faces the star
 
 layout(location = 0) out vec2 out_sums;
 
-const int SAMPLES = 8; // in each direction
-
 void main()
 {
     vec2 size = vec2(textureSize(u_radiance, 0));
     vec2 corner = floor(gl_FragCoord.xy);
     vec2 sums = vec2(0.0);
-    for (int y = 0; y < SAMPLES; y++) {
-        for (int x = 0; x < SAMPLES; x++) {
-            vec2 place = (corner + (vec2(x, y) + 0.5) / float(SAMPLES)) / u_cells;
+    for (int y = 0; y < METER_SAMPLES; y++) {
+        for (int x = 0; x < METER_SAMPLES; x++) {
+            vec2 place = (corner + (vec2(x, y) + 0.5) / float(METER_SAMPLES)) / u_cells;
             vec3 rgb = texelFetch(u_radiance, ivec2(place * size), 0).rgb;
-            float luminance = dot(rgb, vec3(0.2126, 0.7152, 0.0722));
-            luminance = clamp(luminance, 0.0, u_wall_cd_m2);
+            float luminance = meter_counted(meter_luminance(rgb.r, rgb.g, rgb.b), u_wall_cd_m2);
             float weight = sqrt(luminance);
             sums += vec2(weight, weight * log2(max(luminance, 1.0e-30)));
         }

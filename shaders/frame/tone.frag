@@ -38,12 +38,10 @@ vec3 map_tone(vec3 rgb)
 }
 #endif
 
-// Uniform in [0, 1), evenly spread over any neighbourhood: the additive recurrence on the plastic
-// number (its inverse and the inverse of its square, times 2^32), so the noise has little power at
-// low frequencies. Wraps as unsigned integers do.
+// Uniform in [0, 1), evenly spread over any neighbourhood. Wraps as unsigned integers do.
 float spread_noise(uvec2 pixel)
 {
-    uint bits = pixel.x * 3242174889u + pixel.y * 2447445414u;
+    uint bits = pixel.x * TONE_NOISE_X + pixel.y * TONE_NOISE_Y;
     return float(bits >> 8) / 16777216.0;
 }
 

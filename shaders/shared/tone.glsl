@@ -49,4 +49,9 @@ SHARED_FN Number tone_srgb_encode(Number linear_light)
     return linear_light <= 0.0031308 ? toe : curve;
 }
 
+// The dither is an additive recurrence on the plastic number: its inverse and the inverse of its
+// square, times 2^32. The noise has little power at low frequencies.
+#define TONE_NOISE_X 3242174889u
+#define TONE_NOISE_Y 2447445414u
+
 #endif // SHARED_TONE_GLSL

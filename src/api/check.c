@@ -3,6 +3,7 @@
 #include "api/check.h"
 
 #include "scene/scene.h"
+#include <terrella/renderer.h>
 
 #include <float.h>
 #include <math.h>
@@ -112,4 +113,16 @@ trl_result check_view(const trl_context *ctx, const trl_view *view, const trl_sc
     }
     const trl_result result = check_choices(ctx, view);
     return result == TRL_OK ? check_bodies(ctx, view, scene) : result;
+}
+
+trl_result check_size(const trl_context *ctx, uint32_t width, uint32_t height)
+{
+    if (width < 1 || height < 1 || width > TRL_RENDERER_MAX_SIDE ||
+        height > TRL_RENDERER_MAX_SIDE || width * height > TRL_RENDERER_MAX_PIXELS) {
+        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                        "a picture of %u x %u cannot be drawn: sides must be from 1 to %d pixels, "
+                        "all pixels together at most %d",
+                        width, height, TRL_RENDERER_MAX_SIDE, TRL_RENDERER_MAX_PIXELS);
+    }
+    return TRL_OK;
 }

@@ -22,4 +22,7 @@
 TRL_MUST_USE trl_result check_view(const trl_context *ctx, const trl_view *view,
                                    const trl_scene *scene);
 
+// That a picture of this size can be drawn.
+TRL_MUST_USE trl_result check_size(const trl_context *ctx, uint32_t width, uint32_t height);
+
 #endif // API_CHECK_H

@@ -78,18 +78,6 @@ void trl_renderer_destroy(trl_renderer **renderer)
     *renderer = NULL;
 }
 
-static trl_result check_size(const trl_context *ctx, uint32_t width, uint32_t height)
-{
-    if (width < 1 || height < 1 || width > TRL_RENDERER_MAX_SIDE ||
-        height > TRL_RENDERER_MAX_SIDE || width * height > TRL_RENDERER_MAX_PIXELS) {
-        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
-                        "a picture of %u x %u cannot be drawn: sides must be from 1 to %d pixels, "
-                        "all pixels together at most %d",
-                        width, height, TRL_RENDERER_MAX_SIDE, TRL_RENDERER_MAX_PIXELS);
-    }
-    return TRL_OK;
-}
-
 trl_result trl_renderer_draw(trl_renderer *renderer, const trl_view *view, uint32_t width,
                              uint32_t height, double elapsed_s)
 {

@@ -29,6 +29,11 @@ double daylight_wall_cd_m2(const struct medium *medium)
     return CIE_LUMENS_PER_WATT * integrate(medium, NULL).y / M_PI;
 }
 
+double daylight_meter_wall_cd_m2(const struct medium *medium)
+{
+    return fmax(daylight_wall_cd_m2(medium), 1);
+}
+
 static float divide(double reflected, double light)
 {
     return light > 0 ? (float)fmin(fmax(reflected / light, 0), 1) : 0.0f;

@@ -9,6 +9,10 @@
 // Luminance, in cd m^-2, of a white Lambertian wall that faces the star above the atmosphere.
 double daylight_wall_cd_m2(const struct medium *medium);
 
+// The same as the meter counts it: without a star only lights at night remain, and those are dimmer
+// than what stands here then.
+double daylight_meter_wall_cd_m2(const struct medium *medium);
+
 // The ground's albedo in linear sRGB, relative to white in the star's light; in [0, 1].
 void daylight_ground_albedo(const struct medium *medium, float rgb[3]);
 

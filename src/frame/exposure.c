@@ -3,9 +3,7 @@
 #include "frame/exposure.h"
 
 #include "gpu/pass.h"
-#include "shared/tone.glsl"
-
-enum { CELLS_X = 64, CELLS_Y = 40 };
+#include "shared/meter.glsl"
 
 // The eye needs a second for 95 % of the way; an exponential, so that it does not depend on the
 // frame rate.
@@ -36,8 +34,8 @@ static trl_result make_targets(struct exposure *exposure)
             return result;
         }
     }
-    desc.width = CELLS_X;
-    desc.height = CELLS_Y;
+    desc.width = METER_CELLS_X;
+    desc.height = METER_CELLS_Y;
     desc.label = "meter cells";
     return make_target(exposure->gpu, &desc, &exposure->cells, &exposure->cells_target);
 }
@@ -92,7 +90,7 @@ static trl_result set_fixed(struct exposure *exposure, const struct exposure_req
 static trl_result draw_cells(struct exposure *exposure, const struct gpu_texture *radiance)
 {
     const struct gpu_pass pass = {.target = &exposure->cells_target};
-    const float cells[2] = {CELLS_X, CELLS_Y};
+    const float cells[2] = {METER_CELLS_X, METER_CELLS_Y};
     gpu_pass_begin(exposure->gpu, &pass);
     gpu_program_set_texture(&exposure->meter, "u_radiance", radiance);
     gpu_program_set_vec2(&exposure->meter, "u_cells", cells);

@@ -20,9 +20,7 @@ static trl_result make_passes(struct frame *frame, const struct frame_desc *desc
     const struct medium *medium = &frame->scene->medium;
     trl_result result = trl_progress(frame->ctx, "building programs", 0);
     if (result == TRL_OK) {
-        // Without a star only lights at night remain, and those are dimmer than this.
-        const double wall_cd_m2 = fmax(daylight_wall_cd_m2(medium), 1);
-        result = exposure_init(frame->gpu, wall_cd_m2, &frame->exposure);
+        result = exposure_init(frame->gpu, daylight_meter_wall_cd_m2(medium), &frame->exposure);
     }
     if (result == TRL_OK) {
         result = tone_init(frame->gpu, &frame->tone);

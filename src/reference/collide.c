@@ -51,7 +51,7 @@ static double guess_light(const struct reference_tracer *tracer, const struct re
 {
     const double radius = sqrt(ray->perigee2_m2 + s_m * s_m);
     const double toward_sun = sunward->begin_m + sunward->slope * (s_m - ray->begin_m);
-    return sun_guide_at(&tracer->guide, radius - tracer->world->air.bottom_radius_m,
+    return sun_guide_at(&tracer->world->guide, radius - tracer->world->air.bottom_radius_m,
                         toward_sun / radius);
 }
 

@@ -154,13 +154,9 @@ static trl_result trace_wavelength(struct job *job, double wavelength_nm)
     if (result != TRL_OK) {
         return result;
     }
-    struct reference_tracer tracer;
-    result = reference_tracer_init(job->ctx, &world, &wavelength_nm, 1, &tracer);
-    if (result == TRL_OK) {
-        tracer.max_order = job->desc->max_order;
-        result = trace_with(job, &tracer, wavelength_nm);
-        reference_tracer_finish(job->ctx, &tracer);
-    }
+    struct reference_tracer tracer = reference_tracer_make(&world, &wavelength_nm, 1);
+    tracer.max_order = job->desc->max_order;
+    result = trace_with(job, &tracer, wavelength_nm);
     reference_world_finish(job->ctx, &world);
     return result;
 }

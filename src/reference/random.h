@@ -34,4 +34,11 @@ static inline double random_next(struct random_stream *stream)
     return ((double)(random_mix(stream->state) >> 12) + 0.5) * 0x1p-52;
 }
 
+// A stream of its own, chosen by the next number of another.
+static inline struct random_stream random_stream_fork(struct random_stream *stream)
+{
+    stream->state += 0x9e3779b97f4a7c15ULL;
+    return (struct random_stream){random_mix(random_mix(stream->state) ^ 0xd1b54a32d192ed03ULL)};
+}
+
 #endif // REFERENCE_RANDOM_H

@@ -21,7 +21,7 @@ static const double glow_share = 0.5, glow_begin_mu = 0.03, glow_range_mu = 0.08
 static const double glow_orders = 2;
 
 // The same for the lobe about the star, at most, and the sunlight at which it is halved.
-static const double star_share = 0.35, star_orders = 3, star_knee = 0.01;
+static const double star_share = 0.35, star_orders = 6, star_knee = 0.01;
 
 struct reference_glow reference_find_glow(const struct reference_path *path)
 {
@@ -71,8 +71,8 @@ static struct lobes find_lobes(const struct reference_tracer *tracer,
     if (sharp > 0) {
         const double radius = vec3_length(path->position);
         const double mu_sun = vec3_dot(path->position, path->star.direction) / radius;
-        const double light =
-            sun_guide_at(&tracer->guide, radius - tracer->world->air.bottom_radius_m, mu_sun);
+        const double light = sun_guide_at(&tracer->world->guide,
+                                          radius - tracer->world->air.bottom_radius_m, mu_sun);
         const double fade = path->order / star_orders;
         lobes.star_share = fmin(sharp, 1) * star_share * light / (light + star_knee) /
                            fmax(1, fade * fade) * (1 - lobes.glow.share);

@@ -6,7 +6,10 @@
 #include <omp.h>
 
 // Weight below which a path survives every second event only.
-static const double roulette_weight = 0.02;
+static const double roulette_weight = 0.1;
+// Weight above which a path goes on as two.
+static const double split_weight = 2;
+enum { MAX_WAITING = 32 };
 // After so many events a path ends with a small chance at each, so that no medium can trap it for
 // ever. Far more than a path through a cloud of optical depth 1000 has.
 enum { LONG_PATH = 200000 };
@@ -50,13 +53,63 @@ bool reference_enter(const struct reference_world *world, struct reference_path 
     return true;
 }
 
+static double mean_weight(const struct reference_tracer *tracer, const struct reference_path *path)
+{
+    return lanes4_sum(&path->weight) / tracer->optics.count;
+}
+
 static bool survives(const struct reference_tracer *tracer, struct reference_path *path)
 {
-    const double mean = lanes4_sum(&path->weight) / tracer->optics.count;
-    double chance = mean < roulette_weight ? 0.5 : 1;
+    double chance = mean_weight(tracer, path) < roulette_weight ? 0.5 : 1;
     chance *= path->order > LONG_PATH ? long_path_survival : 1;
     path->weight /= chance;
     return chance == 1 || reference_next(path) < chance;
+}
+
+// Paths that wait for their turn: copies of heavy ones.
+struct waiting {
+    struct reference_path paths[MAX_WAITING];
+    int count;
+};
+
+// A path that counts for many goes on as two.
+static void split(const struct reference_tracer *tracer, struct reference_path *path,
+                  struct waiting *waiting)
+{
+    if (mean_weight(tracer, path) > split_weight && waiting->count < MAX_WAITING) {
+        path->weight *= 0.5;
+        struct reference_path *copy = &waiting->paths[waiting->count++];
+        *copy = *path;
+        copy->radiance = lanes4_set(0);
+        copy->random = random_stream_fork(&path->random);
+    }
+}
+
+// Goes on from an event that has been reached; false at the path's end.
+static bool leave_event(const struct reference_tracer *tracer, bool shares_disc,
+                        struct reference_path *path)
+{
+    const bool is_last = path->order == tracer->max_order;
+    // Of the last event, too, a direction is drawn where it may find the disc.
+    if ((is_last && !shares_disc) || !survives(tracer, path)) {
+        return false;
+    }
+    reference_redirect(tracer, path);
+    ++path->order;
+    return !is_last;
+}
+
+static void follow(const struct reference_tracer *tracer, struct reference_scratch *scratch,
+                   struct reference_path *path, struct waiting *waiting)
+{
+    const bool shares_disc = reference_shares_disc(tracer, &path->star);
+    while (reference_advance(tracer, scratch, path)) {
+        reference_add_starlight(tracer, path);
+        if (!leave_event(tracer, shares_disc, path)) {
+            break;
+        }
+        split(tracer, path, waiting);
+    }
 }
 
 void reference_trace(const struct reference_tracer *tracer, struct reference_scratch *scratch,
@@ -67,18 +120,13 @@ void reference_trace(const struct reference_tracer *tracer, struct reference_scr
         path->weight[k] = 1;
     }
     path->radiance = lanes4_set(0);
-    const bool shares_disc = reference_shares_disc(tracer, &path->star);
-    for (path->order = 1; reference_advance(tracer, scratch, path); ++path->order) {
-        reference_add_starlight(tracer, path);
-        const bool is_last = path->order == tracer->max_order;
-        // Of the last event, too, a direction is drawn where it may find the disc.
-        if ((is_last && !shares_disc) || !survives(tracer, path)) {
-            break;
-        }
-        reference_redirect(tracer, path);
-        if (is_last) {
-            break;
-        }
+    path->order = 1;
+    struct waiting waiting = {.count = 0};
+    follow(tracer, scratch, path, &waiting);
+    while (waiting.count > 0) {
+        struct reference_path next = waiting.paths[--waiting.count];
+        follow(tracer, scratch, &next, &waiting);
+        path->radiance += next.radiance;
     }
 }
 
@@ -96,7 +144,23 @@ void reference_world_finish(const trl_context *ctx, struct reference_world *worl
     for (size_t i = 0; i < MEDIUM_MAX_CONSTITUENTS; ++i) {
         phase_sampler_finish(ctx, &world->samplers[i]);
     }
+    sun_guide_finish(ctx, &world->guide);
     reference_air_finish(ctx, &world->air);
+}
+
+// Of wavelengths spread over all of them: the guide is one for all.
+static trl_result make_guide(const trl_context *ctx,
+                             const struct reference_wavelengths *wavelengths,
+                             struct reference_world *world)
+{
+    double nm[REFERENCE_LANES];
+    const size_t most = REFERENCE_LANES;
+    const size_t count = wavelengths->count < most ? wavelengths->count : most;
+    for (size_t k = 0; k < count; ++k) {
+        nm[k] = wavelengths->nm[(2 * k + 1) * wavelengths->count / (2 * count)];
+    }
+    const struct reference_optics optics = reference_optics_at(world->scene.medium, nm, (int)count);
+    return sun_guide_init(ctx, &world->air, &optics, &world->guide);
 }
 
 trl_result reference_world_init(const trl_context *ctx, const struct reference_scene *scene,
@@ -118,23 +182,20 @@ trl_result reference_world_init(const trl_context *ctx, const struct reference_s
         world->highest_phase = fmax(world->highest_phase, highest);
         world->sharpness[i] = fmin(fmax(log(highest) / log(sharp_phase), 0), 1);
     }
+    if (result == TRL_OK) {
+        result = make_guide(ctx, wavelengths, world);
+    }
     if (result != TRL_OK) {
         reference_world_finish(ctx, world);
     }
     return result;
 }
 
-void reference_tracer_finish(const trl_context *ctx, struct reference_tracer *tracer)
+struct reference_tracer reference_tracer_make(const struct reference_world *world, const double *nm,
+                                              int count)
 {
-    sun_guide_finish(ctx, &tracer->guide);
-}
-
-trl_result reference_tracer_init(const trl_context *ctx, const struct reference_world *world,
-                                 const double *nm, int count, struct reference_tracer *tracer)
-{
-    *tracer = (struct reference_tracer){
-        .world = world, .optics = reference_optics_at(world->scene.medium, nm, count)};
-    return sun_guide_init(ctx, &world->air, &tracer->optics, &tracer->guide);
+    return (struct reference_tracer){.world = world,
+                                     .optics = reference_optics_at(world->scene.medium, nm, count)};
 }
 
 size_t reference_max_stretches(const struct reference_air *air)

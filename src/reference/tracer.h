@@ -38,6 +38,7 @@ struct reference_world {
     // scatters next: 0 for smooth phase functions, to 1 for the sharpest.
     double sharpness[MEDIUM_MAX_CONSTITUENTS];
     double highest_phase; // of all constituents, sr^-1
+    struct sun_guide guide;
 };
 
 TRL_MUST_USE trl_result reference_world_init(const trl_context *ctx,
@@ -50,17 +51,14 @@ void reference_world_finish(const trl_context *ctx, struct reference_world *worl
 struct reference_tracer {
     const struct reference_world *world;
     struct reference_optics optics;
-    struct sun_guide guide;
     lanes4 colour_albedo[3]; // albedo of a red, a green and a blue surface
     lanes4 glow;             // radiance per unit irradiance of the star of ground with light 1
     int max_order;           // 0: all
 };
 
-// Without colours: those that a surface has need colour_albedo and glow, which the caller sets.
-TRL_MUST_USE trl_result reference_tracer_init(const trl_context *ctx,
-                                              const struct reference_world *world, const double *nm,
-                                              int count, struct reference_tracer *tracer);
-void reference_tracer_finish(const trl_context *ctx, struct reference_tracer *tracer);
+// At `count` wavelengths. Colours are black until the caller sets colour_albedo and glow.
+struct reference_tracer reference_tracer_make(const struct reference_world *world, const double *nm,
+                                              int count);
 
 // By what a piece of a ray is drawn: the scattering in it; that times the sunlight there; and in
 // twilight the root of the first, for the thin air high up that sees more of the glow than its

@@ -97,6 +97,60 @@ class Pictures(ProgramTest):
             self.expect_success("render", self.scene, "--size", size, "-o", "a.png")
 
 
+class Traced(ProgramTest):
+    """Pictures by the path tracer, without OpenGL."""
+
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write_scene()
+        self.words = ["render", self.scene, "--size", "12x8", "--reference", "--paths", "32"]
+
+    def test_same_seed_same_picture(self):
+        seeds = [["--seed", "3"], ["--seed", "3"], ["--seed", "4"]]
+        pictures = []
+        for seed in seeds:
+            done = self.expect_success(*self.words, "-o", "a.exr", "--error", "e.exr", *seed)
+            self.assertRegex(done.stdout, r"^wrote a\.exr: 12x8, \d+\.\d s\n$")
+            pictures.append([(self.work / name).read_bytes() for name in ["a.exr", "e.exr"]])
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertNotEqual(pictures[0], pictures[2])
+        self.assertNotEqual(pictures[0][0], pictures[0][1])
+
+    def test_png_is_nearly_what_is_drawn(self):
+        def mean(rows):
+            return sum(sum(row) for row in rows) / sum(len(row) for row in rows)
+
+        self.expect_success(*self.words, "--ev100", "10", "-o", "a.png")
+        self.expect_success("render", self.scene, "--size", "12x8", "--ev100", "10", "-o", "b.png")
+        width, height, traced = read_png(self.work / "a.png")
+        self.assertEqual((width, height), (12, 8))
+        # One step of 255: what noise and rounding leave of 96 pixels.
+        self.assertAlmostEqual(mean(traced), mean(read_png(self.work / "b.png")[2]), delta=1)
+
+    def test_orders(self):
+        self.expect_success(*self.words, "-o", "all.exr")
+        self.expect_success(*self.words, "-o", "one.exr", "--orders", "1")
+        self.assertNotEqual((self.work / "all.exr").read_bytes(), (self.work / "one.exr").read_bytes())
+
+    def test_wrong_words(self):
+        for more in [["--samples", "2"], ["--timings"], ["--sky-model", "single"], ["--compare", "spectral,single"]]:
+            self.expect_failure(2, self.words + more, ["--reference", more[0]])
+        for alone in [["--paths", "9"], ["--seed", "1"], ["--orders", "2"], ["--error", "e.exr"]]:
+            self.expect_failure(2, ["render", self.scene] + alone, ["--reference", alone[0]])
+        self.expect_failure(2, self.words + ["--error", "e.png"], ["e.png", ".exr"])
+        self.expect_failure(2, self.words[:-1] + ["0"], ["--paths"])
+        self.expect_failure(1, self.words + ["--error", "missing/e.exr"], ["missing/e.exr", "cannot be written"])
+
+    def test_interruption_leaves_nothing(self):
+        work = self.start_program(*self.words[:-1], "1000000", "-o", "a.exr", "--error", "e.exr")
+        time.sleep(1)
+        work.send_signal(signal.SIGINT)
+        _, errors = work.communicate(timeout=300)
+        self.assertEqual(work.returncode, 1, errors)
+        self.assertIn("cancelled", errors)
+        self.assertEqual(list(self.work.iterdir()), [])
+
+
 class Comparisons(ProgramTest):
     """One sheet of several models: margins of 8 pixels, lines of 12 (apps/cli/compare.c)."""
 

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include <terrella/reference.h>
+
+#include "api/check.h"
+#include "frame/daylight.h"
+#include "frame/develop.h"
+#include "reference/picture.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+
+#include <math.h>
+
+enum { REFERENCE_CANARY = 0x54525031, MAX_ORDERS = 1000 };
+static const uint64_t MAX_PATHS = 1000000000000;
+static const double MAX_PIXEL_WIDTH = 16;
+
+trl_reference_desc trl_reference_desc_default(void)
+{
+    return (trl_reference_desc){.canary = REFERENCE_CANARY, .paths = 64, .pixel_width = 1};
+}
+
+static trl_result check_desc(const trl_context *ctx, const trl_reference_desc *desc)
+{
+    TRL_REQUIRE(ctx, desc != NULL);
+    TRL_REQUIRE(ctx, desc->canary == REFERENCE_CANARY);
+    TRL_REQUIRE(ctx, desc->scene != NULL);
+    TRL_REQUIRE(ctx, desc->paths >= 1 && desc->paths <= MAX_PATHS);
+    TRL_REQUIRE(ctx, desc->max_orders <= MAX_ORDERS);
+    TRL_REQUIRE(ctx, desc->pixel_width >= 0 && desc->pixel_width <= MAX_PIXEL_WIDTH);
+    return TRL_OK;
+}
+
+// Where the camera stands, and what is before the star.
+struct stand {
+    struct camera camera;
+    struct reference_occluder occluders[CAMERA_MAX_BODIES];
+};
+
+static trl_result find_stand(const trl_context *ctx, const trl_scene *scene, const trl_view *view,
+                             double aspect, struct stand *out)
+{
+    const struct camera_place place = {.radius_m = scene->medium.ground_radius_m,
+                                       .bodies = scene->bodies,
+                                       .body_count = scene->body_count};
+    const trl_result result = camera_check(ctx, view, &place);
+    if (result != TRL_OK) {
+        return result;
+    }
+    out->camera = camera_resolve(view, &place, aspect);
+    for (unsigned i = 0; i < out->camera.body_count; i++) {
+        const struct camera_body *body = &out->camera.bodies[i];
+        out->occluders[i] = (struct reference_occluder){body->position_m, body->radius_m};
+    }
+    return TRL_OK;
+}
+
+static trl_result check_picture(const trl_context *ctx, const trl_scene *scene,
+                                const trl_view *view, uint32_t width, uint32_t height)
+{
+    const trl_result result = check_size(ctx, width, height);
+    return result == TRL_OK ? check_view(ctx, view, scene) : result;
+}
+
+static trl_result check_surface(const trl_context *ctx, const trl_scene *scene)
+{
+    if (scene->layer_count > 0) {
+        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                        "the path tracer draws planets without surface layers only; this scene "
+                        "has %zu",
+                        scene->layer_count);
+    }
+    return TRL_OK;
+}
+
+static trl_result trace(const trl_context *ctx, const trl_reference_desc *desc,
+                        const struct stand *stand, struct reference_picture *picture,
+                        const struct reference_sheets *sheets)
+{
+    const struct reference_scene scene = {.medium = &desc->scene->medium,
+                                          .occluder_count = stand->camera.body_count,
+                                          .occluders = stand->occluders};
+    picture->camera = &stand->camera;
+    picture->paths = desc->paths;
+    picture->seed = desc->seed;
+    picture->max_order = (int)desc->max_orders;
+    picture->pixel_width = desc->pixel_width;
+    return reference_picture_trace(ctx, &scene, picture, sheets);
+}
+
+trl_result trl_reference_render(trl_context *ctx, const trl_reference_desc *desc,
+                                const trl_view *view, uint32_t width, uint32_t height, float *rgba,
+                                float *error)
+{
+    if (!ctx) {
+        return TRL_ERROR_INVALID;
+    }
+    trl_result result = check_desc(ctx, desc);
+    if (result != TRL_OK) {
+        return result;
+    }
+    TRL_REQUIRE(ctx, view != NULL);
+    TRL_REQUIRE(ctx, rgba != NULL);
+    result = check_picture(ctx, desc->scene, view, width, height);
+    if (result == TRL_OK) {
+        result = check_surface(ctx, desc->scene);
+    }
+    struct stand stand;
+    if (result == TRL_OK) {
+        result = find_stand(ctx, desc->scene, view, (double)width / height, &stand);
+    }
+    struct reference_picture picture = {.width = width, .height = height};
+    const struct reference_sheets sheets = {rgba, error};
+    return result == TRL_OK ? trace(ctx, desc, &stand, &picture, &sheets) : result;
+}
+
+trl_result trl_radiance_develop(trl_context *ctx, const trl_scene *scene, const trl_view *view,
+                                uint32_t width, uint32_t height, const float *radiance,
+                                uint8_t *rgba)
+{
+    if (!ctx) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(ctx, scene != NULL);
+    TRL_REQUIRE(ctx, view != NULL);
+    TRL_REQUIRE(ctx, radiance != NULL && rgba != NULL);
+    const trl_result result = check_picture(ctx, scene, view, width, height);
+    if (result == TRL_OK) {
+        const struct develop_source source = {.radiance = radiance,
+                                              .width = width,
+                                              .height = height,
+                                              .wall_cd_m2 =
+                                                  daylight_meter_wall_cd_m2(&scene->medium)};
+        develop_picture(&source, view, rgba);
+    }
+    return result;
+}
