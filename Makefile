@@ -6,6 +6,7 @@ SHELL := /bin/bash
 BUILD := build/release
 TERRELLA := build/terrella
 DATA := $(or $(TERRELLA_DATA),$(or $(XDG_CACHE_HOME),$(HOME)/.cache)/terrella/data)
+BODIES ?= all
 SIZE ?= 1920x1080
 VIEWS ?= orbit himalaya-morning rockies-sunset
 
@@ -25,9 +26,9 @@ build: setup ## builds the program: build/terrella
 	@mkdir -p "$$MESA_SHADER_CACHE_DIR"
 	@ln -sfn release/terrella $(TERRELLA)
 
-data: build ## fetches Earth's data into the cache and says where it is
-	@tools/fetch-data.sh $(BUILD)/tools/prepare-data
-	@echo "data: $(DATA)/earth; licences: data/LICENCES.md; more: docs/data.md"
+data: build ## fetches data of all bodies into the cache; BODIES="earth mars" for some
+	@tools/fetch-data.sh $(BUILD)/tools/prepare-data $(BODIES)
+	@echo "data: $(DATA); licences: data/LICENCES.md; more: docs/data.md"
 
 demo: build ## three pictures of Earth in demo/, then the viewer where there is a display
 	@tools/fetch-data.sh $(BUILD)/tools/prepare-data

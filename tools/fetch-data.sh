@@ -1,14 +1,17 @@
 #!/bin/bash
 # SPDX-FileCopyrightText: 2026 the Terrella authors
 # SPDX-License-Identifier: MIT
-# fetch-data.sh [--unpack-to DIR | PREPARE_TOOL]
+# fetch-data.sh PREPARE_TOOL [BODY...]
+# fetch-data.sh --unpack-to DIR
 #
-# Gets the archives of tools/data-sources.txt without installing them, checks them, and has PREPARE_TOOL make
-# the rasters of Earth from them. With --unpack-to only the checked content is put into DIR. Does nothing when
-# all is there. docs/data.md tells the rest.
+# Gets the archives and files of tools/data-sources.txt without installing them, checks them, and has
+# PREPARE_TOOL make the rasters of the bodies from them: earth when none is named, or any of earth, mars, moon,
+# titan, venus, or all. Earth must succeed; what another body lacks is told in a line. With --unpack-to only the
+# checked content of Earth's archives is put into DIR. Does nothing when all is there. docs/data.md tells the rest.
 #
 #   TERRELLA_DATA         where everything goes; else terrella/data below $XDG_CACHE_HOME or ~/.cache
-#   TERRELLA_DATA_MIRROR  a folder to look for archives in first (there, or in packages/ below it)
+#   TERRELLA_DATA_MIRROR  a folder to look in first: for archives there or in packages/ below it, for other
+#                         bodies' files as tools/data-sources.txt names them
 #   TERRELLA_DATA_8K=1    also the large colour picture
 #   TERRELLA_DATA_SOURCES another list than tools/data-sources.txt (tests)
 set -euo pipefail
@@ -187,6 +190,7 @@ unpack_archive() { # kind name folder; uses contents[name]
 }
 
 kinds=() names=() needs=() sizes=() sums=()
+files=() file_needs=() file_sums=() file_urls=() known_bodies=(earth)
 declare -A contents hashes
 read_sources() {
     local word a b c d e
@@ -199,6 +203,10 @@ read_sources() {
             local name=${names[-1]}
             contents[$name]+=${contents[$name]:+$'\n'}$a
             hashes[$name:$a]=$b
+            ;;
+        file)
+            files+=("$a") file_needs+=("$b") file_sums+=("$c") file_urls+=("$d")
+            [[ " ${known_bodies[*]} " == *" ${a%%/*} "* ]] || known_bodies+=("${a%%/*}")
             ;;
         '' | '#'*) ;;
         *) die "$sources: cannot read the line that begins with $word" ;;
@@ -290,22 +298,131 @@ make_rasters() { # prepare-tool
     echo "data: $(du -sh "$data/earth" | cut -f 1) in $data/earth, made in $((SECONDS - began)) s; licences: data/LICENCES.md"
 }
 
+# A file of another body's archive: from the mirror, else from the archive where its address is known. A copy in
+# the mirror that is another one than ours is used all the same when there is no address: somebody made it from
+# the original (docs/data.md). On failure it says why in a line.
+fetch_file() { # index
+    local path=${files[$1]} sum=${file_sums[$1]} url=${file_urls[$1]}
+    local kept=$data/archives/$path partial=$data/archives/$path.part
+    [ ! -f "$kept" ] || return 0
+    mkdir -p "$(dirname "$kept")"
+    local source=${TERRELLA_DATA_MIRROR:+$TERRELLA_DATA_MIRROR/$path}
+    if [ -n "$source" ] && [ -f "$source" ]; then
+        cp "$source" "$partial"
+        if [ "$(sha256_of "$partial")" != "$sum" ]; then
+            if [ "$url" = - ]; then
+                echo "data: $source: not the copy that is known; used as it is" >&2
+            else
+                echo "data: $source: its checksum is wrong; not used" >&2
+                rm -f "$partial"
+            fi
+        fi
+    fi
+    if [ ! -f "$partial" ] && [ "$url" != - ]; then
+        download_file "$url" "$partial" "$sum" || return 1
+    fi
+    if [ ! -f "$partial" ]; then
+        echo "data: only a mirror can have it" >&2
+        return 1
+    fi
+    mv "$partial" "$kept"
+}
+
+download_file() { # url file sha256
+    local why
+    if ! command -v curl >/dev/null; then
+        echo "data: curl is not there; $1 cannot be fetched" >&2
+        return 1
+    fi
+    if ! why=$(curl -fsSL --retry 2 --connect-timeout 20 --max-time 600 -o "$2" "$1" 2>&1); then
+        rm -f "$2"
+        echo "data: $1: $(tail -n 1 <<<"${why:-cannot be fetched}")" >&2
+        return 1
+    fi
+    if [ "$(sha256_of "$2")" != "$3" ]; then
+        rm -f "$2"
+        echo "data: $1: what came has a wrong checksum; removed" >&2
+        return 1
+    fi
+}
+
+# Everything about a body that changes its rasters: its lines of the list, the tool's source, its files.
+stamp_of_body() { # body
+    (
+        grep "^file $1/" "$sources"
+        cat "$tools"/prepare/*.[ch]
+        find "$data/archives/$1" -type f -printf '%f %s\n' 2>/dev/null | LC_ALL=C sort
+    ) | sha256sum | cut -d ' ' -f 1
+}
+
+# Another body than Earth. Nothing here is fatal: its scenes do without, or say what they lack.
+make_body() { # body prepare-tool
+    local body=$1 i missing='' has_any='' stamp began=$SECONDS
+    for i in "${!files[@]}"; do
+        [ "${files[$i]%%/*}" = "$body" ] || continue
+        if fetch_file "$i" 2>"$data/.log"; then
+            has_any=1
+            cat "$data/.log" >&2
+        elif [ "${file_needs[$i]}" = needed ]; then
+            missing="${files[$i]} ($(tail -n 1 "$data/.log" | sed 's/^data: //'))"
+        fi
+    done
+    rm -f "$data/.log"
+    if [ -n "$missing" ] || [ -z "$has_any" ]; then
+        echo "data: $body goes without: ${missing:-nothing of it is to be had}; see docs/data.md"
+        return 0
+    fi
+    stamp=$(stamp_of_body "$body")
+    if [ "$(cat "$data/$body/stamp" 2>/dev/null)" = "$stamp" ]; then
+        return 0
+    fi
+    [ -x "$2" ] || die "$2 is not built; run make build first"
+    mkdir -p "$data/$body"
+    rm -f "$data/$body/stamp"
+    if ! "$2" "$data/archives" "$data/$body" "$body"; then
+        echo "data: $body: its rasters could not be made"
+        return 0
+    fi
+    echo "$stamp" >"$data/$body/stamp"
+    echo "data: $(du -sh "$data/$body" | cut -f 1) in $data/$body, made in $((SECONDS - began)) s"
+}
+
+make_bodies() { # prepare-tool body...
+    local tool=$1 body
+    shift
+    [ $# -gt 0 ] || set -- earth
+    if [ "$1" = all ]; then
+        set -- "${known_bodies[@]}"
+    fi
+    for body in "$@"; do
+        [[ " ${known_bodies[*]} " == *" $body "* ]] || die "there is no data of $body; there is: ${known_bodies[*]}"
+    done
+    for body in "$@"; do
+        if [ "$body" = earth ]; then
+            fetch_all
+            make_rasters "$tool"
+        else
+            make_body "$body" "$tool"
+        fi
+    done
+}
+
 main() {
     mkdir -p "$data" || die "cannot make $data"
     exec 9>"$data/.lock"
     flock 9
     read_sources
-    fetch_all
     if [ "${1:-}" = --unpack-to ]; then
+        fetch_all
         mkdir -p "$2"
         unpack_all "$2"
     else
-        make_rasters "$1"
+        make_bodies "$@"
     fi
 }
 
 if [ $# -lt 1 ] || { [ "$1" = --unpack-to ] && [ $# -ne 2 ]; }; then
-    echo "usage: fetch-data.sh [--unpack-to DIR | PREPARE_TOOL]" >&2
+    echo "usage: fetch-data.sh PREPARE_TOOL [BODY...] | --unpack-to DIR" >&2
     exit 2
 fi
 main "$@"

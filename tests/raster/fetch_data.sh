@@ -158,4 +158,61 @@ sed -i "s/^content usr.share.t.a.txt .*/content usr\/share\/t\/a.txt $(printf 'x
 fact "another version of a file is refused" "$((!$(status_of run "$work/prepare")))"
 fact "the file is named" "$(status_of grep -q "usr/share/t/a.txt is not the version that is known" log)"
 
+# Other bodies: files by their address, or from the mirror alone.
+make_bodies() {
+    mkdir -p archive/red archive/grey
+    echo "red heights" >archive/red/heights.img
+    echo "red colour" >archive/red/colour.jpg
+    echo "grey heights" >archive/grey/heights.png
+    cat >>sources.txt <<END
+file red/heights.img needed $(sum archive/red/heights.img) https://archive.example/red/heights.img
+file red/colour.jpg optional $(sum archive/red/colour.jpg) -
+file grey/heights.png needed $(sum archive/grey/heights.png) -
+END
+    cat >bin/curl <<END
+#!/bin/bash
+while [ \$# -gt 1 ]; do [ "\$1" = -o ] && out=\$2; shift; done
+[ -f "$work/net/\${1##*/}" ] || { echo "curl: (6) no such host" >&2; exit 6; }
+cp "$work/net/\${1##*/}" "\$out"
+END
+    cat >prepare <<END
+#!/bin/bash
+set -e
+echo "\$*" >>"$work/data/made"
+[ "\${3:-earth}" = earth ] || cp "\$1/\$3/"* "\$2"
+END
+    chmod +x bin/curl prepare
+}
+make_package
+make_bodies
+
+start_over
+fact "a body without archive and mirror is no failure" "$(status_of run "$work/prepare" red grey)"
+fact "one line tells of each" "$(status_of test "$(grep -c "goes without" log)" = 2)"
+fact "it says what the network says" "$(status_of grep -q "red/heights.img (https.*no such host)" log)"
+fact "it says what only a mirror has" "$(status_of grep -q "grey/heights.png (only a mirror" log)"
+cp archive/red/heights.img net/
+fact "a body comes from its archive" "$(status_of run "$work/prepare" red grey)"
+fact "its tool is told which body" "$(status_of grep -q "data/archives .*data/red red" data/made)"
+fact "without what is optional" "$(status_of test ! -e data/red/colour.jpg)"
+before=$(wc -l <data/made)
+fact "a second run is no failure" "$(status_of run "$work/prepare" red)"
+fact "it makes nothing" "$(status_of test "$(wc -l <data/made)" = "$before")"
+cp -r archive mirror/../mirror2
+mv mirror2/* mirror/
+rm -rf mirror2
+fact "with a mirror the rest comes" "$(status_of run "$work/prepare" red grey)"
+fact "all of it" "$(status_of test -e data/red/colour.jpg -a -e data/grey/heights.png)"
+
+start_over
+mkdir -p mirror/red mirror/grey
+echo "cut" >mirror/red/heights.img
+echo "my own" >mirror/grey/heights.png
+fact "a wrong file of a known address is no failure" "$(status_of run "$work/prepare" red grey)"
+fact "but not used" "$(status_of test ! -e data/red/heights.img)"
+fact "one without an address is, and told" "$(status_of grep -q "grey/heights.png: not the copy" log)"
+fact "it is there" "$(status_of grep -q "my own" data/grey/heights.png)"
+fact "an unknown body is refused" "$((!$(status_of run "$work/prepare" blue)))"
+fact "the known ones are named" "$(status_of grep -q "there is no data of blue; there is: earth red grey" log)"
+
 exit $((failures > 0))

@@ -1,29 +1,48 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// prepare-data SOURCE_DIR OUT_DIR: makes the rasters of Earth from unpacked packages.
-// tools/fetch-data.sh calls it; docs/data.md says what it reads and writes.
+// prepare-data SOURCE_DIR OUT_DIR [BODY]: makes the rasters of Earth from unpacked packages, or
+// those of another body from files as its archive has them. tools/fetch-data.sh calls it;
+// docs/data.md says what it reads and writes.
 #include "prepare.h"
 
 #include "base/file.h"
 
 #include <stdio.h>
+#include <string.h>
 
-static trl_result prepare_all(const struct places *places)
+static trl_result prepare_earth(const struct places *places)
 {
-    trl_result result = file_make_dirs(places->ctx, places->out_dir);
-    if (result == TRL_OK) {
-        result = earth_prepare_pictures(places);
-    }
+    trl_result result = earth_prepare_pictures(places);
     if (result == TRL_OK) {
         result = earth_prepare_colorado(places);
     }
     return result == TRL_OK ? earth_prepare_globe(places) : result;
 }
 
+static const struct body {
+    const char *name;
+    trl_result (*prepare)(const struct places *places);
+} BODIES[] = {{"earth", prepare_earth},
+              {"mars", mars_prepare},
+              {"moon", moon_prepare},
+              {"titan", titan_prepare},
+              {"venus", venus_prepare}};
+
+static const struct body *find_body(const char *name)
+{
+    for (size_t i = 0; i < sizeof BODIES / sizeof BODIES[0]; i++) {
+        if (strcmp(BODIES[i].name, name) == 0) {
+            return &BODIES[i];
+        }
+    }
+    return NULL;
+}
+
 int main(int argc, char **argv)
 {
-    if (argc != 3) {
-        fprintf(stderr, "usage: prepare-data SOURCE_DIR OUT_DIR\n");
+    const struct body *body = find_body(argc == 4 ? argv[3] : "earth");
+    if (argc < 3 || argc > 4 || !body) {
+        fprintf(stderr, "usage: prepare-data SOURCE_DIR OUT_DIR [earth|mars|moon|titan|venus]\n");
         return 2;
     }
     trl_context_desc desc = trl_context_desc_default();
@@ -32,7 +51,10 @@ int main(int argc, char **argv)
     trl_result result = trl_context_create(&desc, &ctx);
     if (result == TRL_OK) {
         const struct places places = {ctx, argv[1], argv[2]};
-        result = prepare_all(&places);
+        result = file_make_dirs(ctx, places.out_dir);
+        if (result == TRL_OK) {
+            result = body->prepare(&places);
+        }
     }
     trl_context_destroy(&ctx);
     return result == TRL_OK ? 0 : 1;

@@ -99,3 +99,19 @@ double picture_sample(const struct picture *picture, uint32_t band, double u, do
                          fx * fetch(picture, band, column + 1, row + 1);
     return (1 - fy) * north + fy * south;
 }
+
+trl_result picture_write(const struct places *places, const char *name,
+                         const struct picture *picture)
+{
+    const struct geotiff g = {.name = name,
+                              .width = picture->width,
+                              .height = picture->height,
+                              .bands = picture->bands,
+                              .kind = PIXEL_UINT8,
+                              .west_deg = -180,
+                              .north_deg = 90,
+                              .pixel_width_deg = 360.0 / picture->width,
+                              .pixel_height_deg = 180.0 / picture->height,
+                              .pixels = picture->pixels};
+    return geotiff_write(places, &g);
+}

@@ -9,22 +9,6 @@
 
 enum { WORLD_COLUMNS = 4, WORLD_SIDE = 2048 }; // tiles of the 8k picture: 4 north, 4 south
 
-static trl_result write_picture(const struct places *places, const char *name,
-                                const struct picture *picture)
-{
-    const struct geotiff g = {.name = name,
-                              .width = picture->width,
-                              .height = picture->height,
-                              .bands = picture->bands,
-                              .kind = PIXEL_UINT8,
-                              .west_deg = -180,
-                              .north_deg = 90,
-                              .pixel_width_deg = 360.0 / picture->width,
-                              .pixel_height_deg = 180.0 / picture->height,
-                              .pixels = picture->pixels};
-    return geotiff_write(places, &g);
-}
-
 static void format_world_tile(int i, char relative[static 160])
 {
     snprintf(relative, 160, WORLD_8K, i < WORLD_COLUMNS ? 'N' : 'S', i % WORLD_COLUMNS + 1);
@@ -90,7 +74,7 @@ static trl_result prepare_colour(const struct places *places)
         result = picture_read(places, has_4k ? BLUE_MARBLE_4K : BLUE_MARBLE_SMALL, &picture);
     }
     if (result == TRL_OK) {
-        result = write_picture(places, "colour.tif", &picture);
+        result = picture_write(places, "colour.tif", &picture);
     }
     picture_finish(places, &picture);
     return result;
@@ -127,7 +111,7 @@ static trl_result prepare_lights(const struct places *places)
     }
     if (result == TRL_OK) {
         keep_lamps(&picture, has_4k ? WHITE_4K : WHITE_SMALL);
-        result = write_picture(places, "lights.tif", &picture);
+        result = picture_write(places, "lights.tif", &picture);
     }
     picture_finish(places, &picture);
     return result;

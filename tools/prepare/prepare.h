@@ -3,7 +3,8 @@
 #ifndef PREPARE_PREPARE_H
 #define PREPARE_PREPARE_H
 // From files as their publishers pack them to the rasters that scenes name. This tool alone knows
-// Earth: where each file lies in its package, what its numbers mean and where it cannot be trusted.
+// Earth and the other bodies: where each file lies in its package, what its numbers mean and where
+// it cannot be trusted.
 
 #include "base/context.h"
 
@@ -39,6 +40,9 @@ struct picture {
 
 TRL_MUST_USE trl_result picture_read(const struct places *places, const char *relative,
                                      struct picture *out);
+// As a GeoTIFF of the whole globe, column 0 at 180 W.
+TRL_MUST_USE trl_result picture_write(const struct places *places, const char *name,
+                                      const struct picture *picture);
 void picture_finish(const struct places *places, struct picture *picture);
 
 // Bilinear, wrapped east to west; u and v in [0, 1] from the north-west corner.
@@ -75,5 +79,56 @@ TRL_MUST_USE trl_result earth_prepare_globe(const struct places *places);
 TRL_MUST_USE trl_result earth_prepare_colorado(const struct places *places);
 // The best colour and night light pictures that are there.
 TRL_MUST_USE trl_result earth_prepare_pictures(const struct places *places);
+
+// Heights of a whole globe, column 0 at 180 W, row 0 at 90 N.
+struct heights {
+    uint32_t width, height;
+    float *metres; // owned
+};
+
+TRL_MUST_USE trl_result heights_reserve(const struct places *places, uint32_t width,
+                                        uint32_t height, struct heights *out);
+void heights_finish(const struct places *places, struct heights *heights);
+
+// A file of nothing but 16-bit integers, column 0 at 0 E.
+struct grid16 {
+    const char *file;
+    uint32_t width, height;
+    bool is_big_endian;
+    double metres_per_unit;
+};
+TRL_MUST_USE trl_result heights_read_grid(const struct places *places, const struct grid16 *grid,
+                                          struct heights *out);
+
+// A picture whose greys are offset_m + step_m * grey.
+struct greys {
+    const char *file;
+    double offset_m, step_m;
+};
+TRL_MUST_USE trl_result heights_read_greys(const struct places *places, const struct greys *greys,
+                                           struct heights *out);
+
+// Heights in steps become the smoothest ones that round to them. `coarse`, half as fine, or NULL:
+// has the true means of 2 x 2 cells.
+TRL_MUST_USE trl_result heights_undo_steps(const struct places *places, struct heights *heights,
+                                           double step_m, const struct heights *coarse);
+TRL_MUST_USE trl_result heights_write(const struct places *places, const struct heights *heights,
+                                      const char *name);
+
+// Pictures of the ground are not albedos: they are stretched, and taken through air. Each channel
+// is mapped linearly, in light, so that its 10th and 90th percentile by area between the latitudes
+// become the albedos of the dark and the bright ground as measured (linear sRGB), and the brightest
+// code that of frost or fresh craters.
+struct albedo_map {
+    const char *file, *name;
+    double latitude_deg; // percentiles are taken from here south to here north
+    double dark[3], bright[3], white[3];
+};
+TRL_MUST_USE trl_result albedo_prepare(const struct places *places, const struct albedo_map *map);
+
+TRL_MUST_USE trl_result mars_prepare(const struct places *places);
+TRL_MUST_USE trl_result moon_prepare(const struct places *places);
+TRL_MUST_USE trl_result venus_prepare(const struct places *places);
+TRL_MUST_USE trl_result titan_prepare(const struct places *places);
 
 #endif // PREPARE_PREPARE_H
