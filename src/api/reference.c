@@ -5,6 +5,7 @@
 #include "api/check.h"
 #include "frame/daylight.h"
 #include "frame/develop.h"
+#include "frame/relief.h"
 #include "reference/picture.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
@@ -31,30 +32,6 @@ static trl_result check_desc(const trl_context *ctx, const trl_reference_desc *d
     return TRL_OK;
 }
 
-// Where the camera stands, and what is before the star.
-struct stand {
-    struct camera camera;
-    struct reference_occluder occluders[CAMERA_MAX_BODIES];
-};
-
-static trl_result find_stand(const trl_context *ctx, const trl_scene *scene, const trl_view *view,
-                             double aspect, struct stand *out)
-{
-    const struct camera_place place = {.radius_m = scene->medium.ground_radius_m,
-                                       .bodies = scene->bodies,
-                                       .body_count = scene->body_count};
-    const trl_result result = camera_check(ctx, view, &place);
-    if (result != TRL_OK) {
-        return result;
-    }
-    out->camera = camera_resolve(view, &place, aspect);
-    for (unsigned i = 0; i < out->camera.body_count; i++) {
-        const struct camera_body *body = &out->camera.bodies[i];
-        out->occluders[i] = (struct reference_occluder){body->position_m, body->radius_m};
-    }
-    return TRL_OK;
-}
-
 static trl_result check_picture(const trl_context *ctx, const trl_scene *scene,
                                 const trl_view *view, uint32_t width, uint32_t height)
 {
@@ -62,30 +39,68 @@ static trl_result check_picture(const trl_context *ctx, const trl_scene *scene,
     return result == TRL_OK ? check_view(ctx, view, scene) : result;
 }
 
-static trl_result check_surface(const trl_context *ctx, const trl_scene *scene)
+// What is asked for, and what it takes.
+struct job {
+    const trl_context *ctx;
+    const trl_reference_desc *desc;
+    const trl_view *view;
+    uint32_t width, height;
+    struct reference_sheets sheets;
+    struct relief relief;
+    struct camera camera;
+    struct reference_occluder occluders[CAMERA_MAX_BODIES];
+};
+
+static trl_result place_camera(struct job *job)
 {
-    if (scene->layer_count > 0) {
-        return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
-                        "the path tracer draws planets without surface layers only; this scene "
-                        "has %zu",
-                        scene->layer_count);
+    const trl_scene *scene = job->desc->scene;
+    const trl_view *view = job->view;
+    const struct camera_place place = {.radius_m = scene->medium.ground_radius_m,
+                                       .ground_altitude_m = relief_altitude_m(
+                                           &job->relief, view->latitude_rad, view->longitude_rad),
+                                       .bodies = scene->bodies,
+                                       .body_count = scene->body_count};
+    const trl_result result = camera_check(job->ctx, view, &place);
+    if (result != TRL_OK) {
+        return result;
+    }
+    job->camera = camera_resolve(view, &place, (double)job->width / job->height);
+    for (unsigned i = 0; i < job->camera.body_count; i++) {
+        const struct camera_body *body = &job->camera.bodies[i];
+        job->occluders[i] = (struct reference_occluder){body->position_m, body->radius_m};
     }
     return TRL_OK;
 }
 
-static trl_result trace(const trl_context *ctx, const trl_reference_desc *desc,
-                        const struct stand *stand, struct reference_picture *picture,
-                        const struct reference_sheets *sheets)
+static trl_result trace(const struct job *job)
 {
+    const trl_reference_desc *desc = job->desc;
+    const struct reference_surface surface = relief_surface(&job->relief);
     const struct reference_scene scene = {.medium = &desc->scene->medium,
-                                          .occluder_count = stand->camera.body_count,
-                                          .occluders = stand->occluders};
-    picture->camera = &stand->camera;
-    picture->paths = desc->paths;
-    picture->seed = desc->seed;
-    picture->max_order = (int)desc->max_orders;
-    picture->pixel_width = desc->pixel_width;
-    return reference_picture_trace(ctx, &scene, picture, sheets);
+                                          .surface = job->relief.is_bare ? NULL : &surface,
+                                          .occluder_count = job->camera.body_count,
+                                          .occluders = job->occluders};
+    const struct reference_picture picture = {.camera = &job->camera,
+                                              .width = job->width,
+                                              .height = job->height,
+                                              .paths = desc->paths,
+                                              .seed = desc->seed,
+                                              .max_order = (int)desc->max_orders,
+                                              .pixel_width = desc->pixel_width};
+    return reference_picture_trace(job->ctx, &scene, &picture, &job->sheets);
+}
+
+static trl_result render(struct job *job)
+{
+    trl_result result = relief_init(job->ctx, job->desc->scene, &job->relief);
+    if (result == TRL_OK) {
+        result = place_camera(job);
+    }
+    if (result == TRL_OK) {
+        result = trace(job);
+    }
+    relief_finish(&job->relief);
+    return result;
 }
 
 trl_result trl_reference_render(trl_context *ctx, const trl_reference_desc *desc,
@@ -102,16 +117,13 @@ trl_result trl_reference_render(trl_context *ctx, const trl_reference_desc *desc
     TRL_REQUIRE(ctx, view != NULL);
     TRL_REQUIRE(ctx, rgba != NULL);
     result = check_picture(ctx, desc->scene, view, width, height);
-    if (result == TRL_OK) {
-        result = check_surface(ctx, desc->scene);
-    }
-    struct stand stand;
-    if (result == TRL_OK) {
-        result = find_stand(ctx, desc->scene, view, (double)width / height, &stand);
-    }
-    struct reference_picture picture = {.width = width, .height = height};
-    const struct reference_sheets sheets = {rgba, error};
-    return result == TRL_OK ? trace(ctx, desc, &stand, &picture, &sheets) : result;
+    struct job job = {.ctx = ctx,
+                      .desc = desc,
+                      .view = view,
+                      .width = width,
+                      .height = height,
+                      .sheets = {rgba, error}};
+    return result == TRL_OK ? render(&job) : result;
 }
 
 trl_result trl_radiance_develop(trl_context *ctx, const trl_scene *scene, const trl_view *view,

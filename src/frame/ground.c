@@ -21,10 +21,9 @@ static enum surface_kind choose_kind(enum layer_kind kind)
     return SURFACE_LIGHTS;
 }
 
-static trl_result load_surface(struct gpu *gpu, const struct trl_scene *scene,
-                               struct surface *surface)
+void ground_describe(const struct trl_scene *scene,
+                     struct surface_layer_desc layers[SCENE_MAX_LAYERS], struct surface_desc *out)
 {
-    struct surface_layer_desc layers[SCENE_MAX_LAYERS];
     for (size_t i = 0; i < scene->layer_count; i++) {
         const struct layer *layer = &scene->layers[i];
         layers[i] = (struct surface_layer_desc){.kind = choose_kind(layer->kind),
@@ -34,13 +33,21 @@ static trl_result load_surface(struct gpu *gpu, const struct trl_scene *scene,
                                                 .offset_m = layer->offset_m,
                                                 .feather_rad = layer->feather_deg * M_PI / 180};
     }
-    struct surface_desc desc = surface_desc_default();
-    desc.radius_m = scene->medium.ground_radius_m;
-    desc.layer_count = scene->layer_count;
-    desc.layers = layers;
-    desc.detail = (struct detail_desc){scene->detail.roughness, scene->detail.albedo_variation,
+    *out = surface_desc_default();
+    out->radius_m = scene->medium.ground_radius_m;
+    out->layer_count = scene->layer_count;
+    out->layers = layers;
+    out->detail = (struct detail_desc){scene->detail.roughness, scene->detail.albedo_variation,
                                        scene->detail.smallest_m};
-    daylight_ground_albedo(&scene->medium, desc.default_albedo);
+    daylight_ground_albedo(&scene->medium, out->default_albedo);
+}
+
+static trl_result load_surface(struct gpu *gpu, const struct trl_scene *scene,
+                               struct surface *surface)
+{
+    struct surface_layer_desc layers[SCENE_MAX_LAYERS];
+    struct surface_desc desc;
+    ground_describe(scene, layers, &desc);
     return surface_init(gpu, &desc, surface);
 }
 
@@ -57,7 +64,7 @@ static trl_result make_passes(struct ground *ground, double sun_angular_radius_r
 }
 
 // All lights share a buffer, and with it the scale of the brightest layer.
-static double find_lights(const struct trl_scene *scene)
+double ground_find_lights_cd_m2(const struct trl_scene *scene)
 {
     double brightest_cd_m2 = 0;
     for (size_t i = 0; i < scene->layer_count; i++) {
@@ -70,7 +77,7 @@ static double find_lights(const struct trl_scene *scene)
 
 trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene, struct ground *out)
 {
-    *out = (struct ground){.gpu = gpu, .lights_cd_m2 = find_lights(scene)};
+    *out = (struct ground){.gpu = gpu, .lights_cd_m2 = ground_find_lights_cd_m2(scene)};
     trl_result result = load_surface(gpu, scene, &out->surface);
     out->is_bare = result == TRL_OK && !surface_has_layers(&out->surface);
     if (result == TRL_OK && !out->is_bare) {

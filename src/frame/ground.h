@@ -31,6 +31,13 @@ struct ground {
     struct gpu_target mesh_target, surface_target;
 };
 
+// What the surface of a scene is made of; `layers` belongs to it.
+void ground_describe(const struct trl_scene *scene,
+                     struct surface_layer_desc layers[SCENE_MAX_LAYERS], struct surface_desc *out);
+
+// Luminance of white in the lights of a scene: that of the brightest layer.
+double ground_find_lights_cd_m2(const struct trl_scene *scene);
+
 TRL_MUST_USE trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene,
                                     struct ground *out);
 void ground_finish(struct ground *ground);

@@ -41,7 +41,22 @@ static double lowest_between(const struct march *march, double from, double to)
     return altitude_at(march, fmin(fmax(perigee, from), to));
 }
 
-// Ground is above at `high` and below at `low` or the other way round.
+static double step_at(const struct march *march, double t)
+{
+    return march->surface->step_m(march->surface->user, point_at(march, t));
+}
+
+// Whether the whole piece is above all ground that it can pass: seen from the centre it is no
+// longer than its length over the lowest radius.
+static bool is_clear_between(const struct march *march, double from, double to)
+{
+    const struct reference_surface *surface = march->surface;
+    const double lowest = lowest_between(march, from, to);
+    const double stretch = march->radius_m / (march->radius_m + fmin(lowest, 0));
+    return lowest > surface->ceiling_m(surface->user, point_at(march, from), (to - from) * stretch);
+}
+
+// The way is above the ground at `before` and not at `behind`.
 static double bisect(const struct march *march, double before, double behind)
 {
     while (behind - before > resolution * march->radius_m) {
@@ -85,23 +100,24 @@ double reference_surface_meet(const struct reference_surface *surface, double ra
     if (clearance_at(&march, at) <= 0) {
         return at;
     }
-    double step = first_steps * surface->step_m;
+    double step = first_steps * step_at(&march, at);
     while (at < end) {
         const double next = fmin(at + step, end);
-        const double reach = next - at; // the ground below is passed no faster than the way
-        if (lowest_between(&march, at, next) >
-            surface->ceiling_m(surface->user, point_at(&march, at), reach)) {
+        if (is_clear_between(&march, at, next)) {
             at = next;
             step *= 2;
-        } else if (step > surface->step_m) {
-            step = fmax(0.5 * step, surface->step_m);
-        } else {
-            if (clearance_at(&march, next) <= 0) {
-                return bisect(&march, at, next);
-            }
-            at = next;
-            step *= 2;
+            continue;
         }
+        const double least = step_at(&march, at);
+        if (step > least) {
+            step = fmax(0.5 * step, least);
+            continue;
+        }
+        if (clearance_at(&march, next) <= 0) {
+            return bisect(&march, at, next);
+        }
+        at = next;
+        step *= 2;
     }
     return -1;
 }

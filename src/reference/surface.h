@@ -23,10 +23,11 @@ struct reference_look {
 struct reference_surface {
     const void *user;
     double lowest_m, highest_m; // altitudes between which the ground lies
-    double step_m;              // along the ground; what is smaller is not looked for
     double white_cd_m2;         // luminance of the ground's own light where that is white
     // Altitude above the medium's ground.
     double (*altitude_m)(const void *user, struct vec3 direction);
+    // What is smaller, along the ground around there, is not looked for; > 0.
+    double (*step_m)(const void *user, struct vec3 direction);
     // An altitude that no ground within `reach_m` (along the ground) rises above.
     double (*ceiling_m)(const void *user, struct vec3 direction, double reach_m);
     void (*look)(const void *user, struct vec3 direction, struct reference_look *look);
@@ -40,7 +41,7 @@ struct reference_way {
 
 // Distance along the way to the ground of a surface over a sphere of `radius_m`, or a negative
 // number if there is none. A way that begins below the ground meets it at once. Ground that
-// rises above the way by less than it does within `step_m` may be missed.
+// rises above the way over less than `step_m` may be missed.
 double reference_surface_meet(const struct reference_surface *surface, double radius_m,
                               const struct reference_way *way);
 

@@ -15,6 +15,9 @@ enum { MAX_WAITING = 32 };
 enum { LONG_PATH = 200000 };
 static const double long_path_survival = 0.9999;
 
+// How far below the lowest terrain rays run, relative to the radius: half a metre on Earth.
+static const double below_ground = 1e-7;
+
 // A phase function of this height, in sr^-1, is sharp: 1 has sharpness 0, this 1, by logarithms.
 static const double sharp_phase = 100;
 
@@ -170,7 +173,9 @@ trl_result reference_world_init(const trl_context *ctx, const struct reference_s
     *world = (struct reference_world){.scene = *scene};
     struct reference_extent extent = {0, 0};
     if (scene->surface) {
-        extent.lowest_m = fmin(0, scene->surface->lowest_m);
+        // A little deeper: rays that end on the bottom would miss level ground by rounding.
+        extent.lowest_m =
+            fmin(0, scene->surface->lowest_m) - below_ground * scene->medium->ground_radius_m;
         extent.highest_m = fmax(0, scene->surface->highest_m);
     }
     const struct medium *medium = scene->medium;

@@ -14,10 +14,15 @@ static double radians(double degrees)
     return degrees * (SHARED_PI / 180);
 }
 
+static struct raster_window texture_window(const struct raster *raster, const struct gpu *gpu)
+{
+    return raster_window_whole(raster, gpu ? gpu->caps.max_texture_size : 0);
+}
+
 struct layer_frame layer_frame_of(const struct raster *raster, const struct gpu *gpu,
                                   double feather)
 {
-    const struct raster_window window = raster_window_whole(raster, gpu->caps.max_texture_size);
+    const struct raster_window window = texture_window(raster, gpu);
     const double width = raster->pixel_width_deg * raster->width;
     const double height = raster->pixel_height_deg * raster->height;
     return (struct layer_frame){
@@ -325,6 +330,9 @@ static trl_result upload_levels(struct terrain_layer *layer, const struct texels
 
 trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer)
 {
+    if (!gpu) {
+        return TRL_OK;
+    }
     const struct layer_heights *h = &layer->heights;
     struct gpu_texture_desc desc = describe_texture(&layer->frame);
     const bool is_norm = h->shorts && gpu->caps.has_norm16;
@@ -369,11 +377,6 @@ static trl_result upload_bytes(struct gpu *gpu, enum gpu_format format, const ui
     return result == TRL_OK ? upload_levels(layer, &texels) : result;
 }
 
-static struct raster_window texture_window(const struct raster *raster, const struct gpu *gpu)
-{
-    return raster_window_whole(raster, gpu->caps.max_texture_size);
-}
-
 trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
                               struct terrain_layer *layer)
 {
@@ -390,7 +393,11 @@ trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
                 rgba[4 * i + c] = table[rgba[4 * i + c]];
             }
         }
-        result = upload_bytes(gpu, GPU_FORMAT_RGBA8, rgba, layer);
+        layer->roots = gpu ? NULL : rgba;
+        result = gpu ? upload_bytes(gpu, GPU_FORMAT_RGBA8, rgba, layer) : TRL_OK;
+    }
+    if (rgba == layer->roots) {
+        return result;
     }
     mem_free(layer->ctx, rgba);
     return result;
@@ -402,7 +409,7 @@ trl_result layer_load_mask(struct gpu *gpu, const struct raster *raster,
     const struct raster_window w = texture_window(raster, gpu);
     *bytes = mem_alloc(layer->ctx, (size_t)w.out_width * w.out_height, 1);
     trl_result result = *bytes ? raster_read_uint8(raster, &w, 0, *bytes) : TRL_ERROR_MEMORY;
-    if (result == TRL_OK) {
+    if (result == TRL_OK && gpu) {
         result = upload_bytes(gpu, GPU_FORMAT_R8, *bytes, layer);
     }
     return result;
@@ -413,6 +420,7 @@ void layer_finish(struct terrain_layer *layer)
     if (layer->ctx) {
         mem_free(layer->ctx, layer->heights.shorts);
         mem_free(layer->ctx, layer->heights.floats);
+        mem_free(layer->ctx, layer->roots);
         gpu_texture_finish(&layer->texture);
     }
     *layer = (struct terrain_layer){0};

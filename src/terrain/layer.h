@@ -3,6 +3,7 @@
 #ifndef TERRAIN_LAYER_H
 #define TERRAIN_LAYER_H
 // One raster of the surface, resident: on the GPU with its mips, elevations also on the CPU.
+// Without a GPU (NULL) pictures are on the CPU as well, and masks nowhere.
 
 #include "gpu/program.h"
 #include "gpu/texture.h"
@@ -29,6 +30,8 @@ struct terrain_layer {
     const trl_context *ctx;
     struct layer_frame frame;
     struct layer_heights heights; // of elevation layers only
+    uint8_t *roots; // owned; of pictures without a GPU: RGBA, square roots of linear values, north
+                    // row first
     struct gpu_texture texture;
     // Of elevation layers: metres are this times what the texture holds, and this more.
     double texture_scale_m, texture_offset_m;

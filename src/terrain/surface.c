@@ -126,8 +126,9 @@ static trl_result raise_sea(const struct loader *loader, struct terrain_layer *l
 static trl_result check_bytes(struct loader *loader, const struct raster *raster,
                               const struct surface_layer_desc *desc)
 {
+    const struct gpu *gpu = loader->surface->gpu;
     const struct raster_window w =
-        raster_window_whole(raster, loader->surface->gpu->caps.max_texture_size);
+        raster_window_whole(raster, gpu ? gpu->caps.max_texture_size : 0);
     const double bytes = (double)w.out_width * w.out_height * KIND_TEXEL_BYTES[desc->kind];
     loader->bytes += bytes;
     if (loader->bytes > loader->desc->max_bytes) {
@@ -180,7 +181,7 @@ static size_t count_layers(const struct surface *surface)
 static trl_result load_layer(struct loader *loader, const struct surface_layer_desc *desc)
 {
     struct surface *s = loader->surface;
-    const trl_context *ctx = s->gpu->ctx;
+    const trl_context *ctx = s->ctx;
     const size_t index = s->counts[desc->kind];
     if (index == SURFACE_MAX_LAYERS) {
         return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
@@ -293,7 +294,7 @@ static void bound_row(struct surface *s, const struct terrain_layer *layer, uint
 static trl_result widen_bounds(struct surface *s)
 {
     const size_t count = (size_t)SURFACE_BOUNDS_COLUMNS * SURFACE_BOUNDS_ROWS;
-    struct surface_bounds *wide = mem_alloc(s->gpu->ctx, count, sizeof *wide);
+    struct surface_bounds *wide = mem_alloc(s->ctx, count, sizeof *wide);
     if (!wide) {
         return TRL_ERROR_MEMORY;
     }
@@ -317,7 +318,7 @@ static trl_result widen_bounds(struct surface *s)
                 (struct surface_bounds){b.min - slack, b.max + slack};
         }
     }
-    mem_free(s->gpu->ctx, s->bounds);
+    mem_free(s->ctx, s->bounds);
     s->bounds = wide;
     return TRL_OK;
 }
@@ -325,7 +326,7 @@ static trl_result widen_bounds(struct surface *s)
 static trl_result find_bounds(struct surface *s)
 {
     const size_t count = (size_t)SURFACE_BOUNDS_COLUMNS * SURFACE_BOUNDS_ROWS;
-    s->bounds = mem_alloc(s->gpu->ctx, count, sizeof *s->bounds); // zeroed: sea level
+    s->bounds = mem_alloc(s->ctx, count, sizeof *s->bounds); // zeroed: sea level
     if (!s->bounds) {
         return TRL_ERROR_MEMORY;
     }
@@ -353,27 +354,40 @@ static double find_coarsest_m(const struct surface *s)
     return coarsest * s->radius_m;
 }
 
-trl_result surface_init(struct gpu *gpu, const struct surface_desc *desc, struct surface *out)
+static trl_result fill_surface(const struct surface_desc *desc, struct surface *out)
 {
-    *out = (struct surface){.gpu = gpu,
-                            .radius_m = desc->radius_m,
-                            .default_albedo = {desc->default_albedo[0], desc->default_albedo[1],
-                                               desc->default_albedo[2]}};
+    out->radius_m = desc->radius_m;
+    for (int c = 0; c < 3; c++) {
+        out->default_albedo[c] = desc->default_albedo[c];
+    }
     struct loader loader = {.desc = desc, .surface = out};
     trl_result result = load_layers(&loader);
     if (result == TRL_OK) {
         result = find_bounds(out);
     }
-    if (result == TRL_OK) {
-        result = detail_init(gpu, &desc->detail, find_coarsest_m(out), &out->detail);
+    if (result == TRL_OK && out->gpu) {
+        result = detail_init(out->gpu, &desc->detail, find_coarsest_m(out), &out->detail);
     }
     for (size_t i = 0; i < SURFACE_MAX_LAYERS; i++) {
-        mem_free(gpu->ctx, loader.masks[i]);
+        mem_free(out->ctx, loader.masks[i]);
     }
     if (result != TRL_OK) {
         surface_finish(out);
     }
     return result;
+}
+
+trl_result surface_init(struct gpu *gpu, const struct surface_desc *desc, struct surface *out)
+{
+    *out = (struct surface){.ctx = gpu->ctx, .gpu = gpu};
+    return fill_surface(desc, out);
+}
+
+trl_result surface_init_on_cpu(const trl_context *ctx, const struct surface_desc *desc,
+                               struct surface *out)
+{
+    *out = (struct surface){.ctx = ctx};
+    return fill_surface(desc, out);
 }
 
 void surface_finish(struct surface *surface)
@@ -384,8 +398,8 @@ void surface_finish(struct surface *surface)
         }
     }
     detail_finish(&surface->detail);
-    if (surface->gpu) {
-        mem_free(surface->gpu->ctx, surface->bounds);
+    if (surface->ctx) {
+        mem_free(surface->ctx, surface->bounds);
     }
     *surface = (struct surface){0};
 }

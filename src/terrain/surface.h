@@ -3,7 +3,8 @@
 #ifndef TERRAIN_SURFACE_H
 #define TERRAIN_SURFACE_H
 // What the ground is: height, colour, water and night lights at any direction, from ordered layers
-// of rasters. Height is answered on the CPU in double and on the GPU in float; the rest on the GPU.
+// of rasters. Height is answered on the CPU in double and on the GPU in float; the rest on the GPU,
+// or, where there is none, by look.h.
 //
 // Rasters are held whole, with their mip chains. (Streaming of larger ones will stand behind
 // struct terrain_layer: nobody else sees how texels come to be there.)
@@ -52,7 +53,8 @@ enum { SURFACE_BOUNDS_COLUMNS = 256, SURFACE_BOUNDS_ROWS = 128 };
 
 // Owner: caller. Must outlive the passes made for it. Threads: altitude queries from any.
 struct surface {
-    struct gpu *gpu;
+    const trl_context *ctx;
+    struct gpu *gpu; // NULL: on the CPU only
     double radius_m;
     float default_albedo[3];
     size_t counts[SURFACE_KIND_COUNT];
@@ -67,6 +69,12 @@ struct surface {
 // failure.
 TRL_MUST_USE trl_result surface_init(struct gpu *gpu, const struct surface_desc *desc,
                                      struct surface *out);
+
+// The same without a GPU: pictures are held on the CPU (look.h), there is no detail, and no pass
+// can be made for it. Never TRL_ERROR_GPU.
+TRL_MUST_USE trl_result surface_init_on_cpu(const trl_context *ctx, const struct surface_desc *desc,
+                                            struct surface *out);
+
 void surface_finish(struct surface *surface);
 
 // False: the passes of this folder have nothing to show that a bare sphere does not.

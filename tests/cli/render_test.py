@@ -132,6 +132,15 @@ class Traced(ProgramTest):
         self.expect_success(*self.words, "-o", "one.exr", "--orders", "1")
         self.assertNotEqual((self.work / "all.exr").read_bytes(), (self.work / "one.exr").read_bytes())
 
+    def test_terrain(self):
+        self.expect_success(*self.words, "-o", "plain.exr")
+        (self.data / "h.tif").write_bytes(make_tiff(256, 128))
+        self.write_scene(add_layers({"name": "h", "elevation": "h.tif", "scale": 10}))  # under the same name
+        self.expect_success(*self.words, "-o", "hills.exr")
+        self.assertTrue((self.work / "hills.exr").read_bytes() != (self.work / "plain.exr").read_bytes())
+        (self.data / "h.tif").write_bytes(b"not a picture at all")
+        self.expect_failure(1, self.words, ["h.tif"])
+
     def test_wrong_words(self):
         for more in [["--samples", "2"], ["--timings"], ["--sky-model", "single"], ["--compare", "spectral,single"]]:
             self.expect_failure(2, self.words + more, ["--reference", more[0]])

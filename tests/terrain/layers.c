@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 // What rasters become: altitudes on the CPU, bounds, the sea, gaps, poles, errors, pictures.
 #include "fixture.h"
+#include "terrain/ceiling.h"
+#include "terrain/look.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -382,6 +384,83 @@ static void test_detail_stays_in_its_place_and_is_gone_from_afar(void **state)
     surface_finish(&s);
 }
 
+static double hash_of(int i)
+{
+    return fmod(fabs(sin(i * 12.9898) * 43758.5453), 1);
+}
+
+// Without a GPU: the same heights, pictures that can be asked for, and a ceiling above everything.
+static void test_surfaces_are_the_same_without_a_gpu(void **state)
+{
+    struct fixture *f = *state;
+    char noisy[128], inset[128], picture[128], mask[128];
+    fixture_write_heights(f, "noisy", &GLOBE, noisy_height, noisy);
+    fixture_write_heights(f, "inset", &INSET, inset_height, inset);
+    fixture_write_bytes(f, "picture", &INSET, grey, picture);
+    fixture_write_bytes(f, "mask", &GLOBE, west_is_water, mask);
+    const struct surface_layer_desc layers[] = {
+        {.kind = SURFACE_ELEVATION, .path = noisy, .scale = 1},
+        {.kind = SURFACE_ELEVATION, .path = inset, .scale = 1, .feather_rad = 0.5 * DEGREE},
+        {.kind = SURFACE_WATER, .path = mask},
+        {.kind = SURFACE_COLOUR, .path = picture}};
+    const struct surface_desc desc = describe(layers, 4);
+    struct surface with, without;
+    assert_int_equal(surface_init(f->gpu, &desc, &with), TRL_OK);
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &without), TRL_OK);
+    struct terrain_ceiling ceiling;
+    assert_int_equal(terrain_ceiling_init(&without, &ceiling), TRL_OK);
+    for (int i = 0; i < 20000; i++) {
+        const double latitude = -90 + 180 * hash_of(3 * i), longitude = -180 + 360 * hash_of(7 * i);
+        const struct vec3 at = vec3_from_lat_lon(latitude * DEGREE, longitude * DEGREE);
+        const double height = surface_altitude(&without, at);
+        assert_close(height, surface_altitude(&with, at), 0);
+        // From another place that is within reach of it.
+        const double reach = pow(10, -4 * hash_of(11 * i));
+        const struct vec3 aside = {hash_of(5 * i) - 0.5, hash_of(13 * i) - 0.5,
+                                   hash_of(17 * i) - 0.5};
+        const struct vec3 near = vec3_normalize(vec3_add(at, vec3_scale(aside, 1.1 * reach)));
+        const double angle = acos(fmin(vec3_dot(near, at), 1)) + 1e-7;
+        assert_true(terrain_ceiling_m(&ceiling, near, angle) >= height);
+    }
+    // Tight where there is something to be tight about: outside of the inset's 3000 m.
+    const struct vec3 far = vec3_from_lat_lon(-20 * DEGREE, 60 * DEGREE);
+    assert_true(terrain_ceiling_m(&ceiling, far, 5 * DEGREE) < 1500);
+    double rgb[3] = {0.1, 0.2, 0.3};
+    assert_false(surface_picture(&without, SURFACE_COLOUR, far, rgb));
+    assert_close(rgb[1], 0.2, 1e-12);
+    const struct vec3 middle = vec3_from_lat_lon(45 * DEGREE, 15 * DEGREE);
+    assert_true(surface_picture(&without, SURFACE_COLOUR, middle, rgb));
+    assert_close(rgb[1], 0.5029, 0.004); // sRGB 188; a step of the root is 1/255
+    terrain_ceiling_finish(&ceiling);
+    surface_finish(&without);
+    surface_finish(&with);
+}
+
+// A slope of 1000 m cos(latitude) cos(longitude), on a sphere of 6400 km.
+static void test_normals_lean_as_the_heights_do(void **state)
+{
+    struct fixture *f = *state;
+    char path[128];
+    fixture_write_heights(f, "smooth", &GLOBE, smooth_height, path);
+    const struct surface_layer_desc layer = {.kind = SURFACE_ELEVATION, .path = path, .scale = 100};
+    const struct surface_desc desc = describe(&layer, 1);
+    struct surface s;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &s), TRL_OK);
+    for (int i = 0; i < 200; i++) {
+        const double latitude = -80 + 160 * hash_of(3 * i), longitude = -180 + 360 * hash_of(7 * i);
+        const struct vec3 up = vec3_from_lat_lon(latitude * DEGREE, longitude * DEGREE);
+        const struct vec3 normal = surface_normal(&s, up);
+        // The heights are 1e5 m times the x of the direction: their gradient is along x.
+        const double r = s.radius_m + surface_altitude(&s, up);
+        const struct vec3 slope =
+            vec3_scale(vec3_sub((struct vec3){1, 0, 0}, vec3_scale(up, up.x)), 1e5 / r);
+        const struct vec3 expected = vec3_normalize(vec3_sub(up, slope));
+        // Whole units of 100 m on texels of 112 km.
+        assert_close(vec3_length(vec3_sub(normal, expected)), 0, 2e-3);
+    }
+    surface_finish(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -394,6 +473,8 @@ int main(void)
         cmocka_unit_test(test_a_missing_optional_layer_is_passed_over),
         cmocka_unit_test(test_pixels_hold_colour_water_normal_and_lights),
         cmocka_unit_test(test_detail_stays_in_its_place_and_is_gone_from_afar),
+        cmocka_unit_test(test_surfaces_are_the_same_without_a_gpu),
+        cmocka_unit_test(test_normals_lean_as_the_heights_do),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }

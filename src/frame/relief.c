@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "frame/relief.h"
+
+#include "frame/ground.h"
+#include "terrain/look.h"
+
+trl_result relief_init(const trl_context *ctx, const struct trl_scene *scene, struct relief *out)
+{
+    *out = (struct relief){.lights_cd_m2 = ground_find_lights_cd_m2(scene)};
+    struct surface_layer_desc layers[SCENE_MAX_LAYERS];
+    struct surface_desc desc;
+    ground_describe(scene, layers, &desc);
+    trl_result result = trl_progress(ctx, "reading rasters", 0);
+    if (result == TRL_OK) {
+        result = surface_init_on_cpu(ctx, &desc, &out->surface);
+    }
+    if (result == TRL_OK) {
+        result = terrain_ceiling_init(&out->surface, &out->ceiling);
+    }
+    out->is_bare = result == TRL_OK && !surface_has_layers(&out->surface);
+    if (result != TRL_OK) {
+        relief_finish(out);
+    }
+    return result;
+}
+
+void relief_finish(struct relief *relief)
+{
+    terrain_ceiling_finish(&relief->ceiling);
+    surface_finish(&relief->surface);
+    *relief = (struct relief){0};
+}
+
+double relief_altitude_m(const struct relief *relief, double latitude_rad, double longitude_rad)
+{
+    return surface_altitude(&relief->surface, vec3_from_lat_lon(latitude_rad, longitude_rad));
+}
+
+static double find_altitude(const void *user, struct vec3 direction)
+{
+    const struct relief *relief = user;
+    return surface_altitude(&relief->surface, direction);
+}
+
+static double find_step(const void *user, struct vec3 direction)
+{
+    const struct relief *relief = user;
+    return surface_half_texel_m(&relief->surface, direction);
+}
+
+static double find_ceiling(const void *user, struct vec3 direction, double reach_m)
+{
+    const struct relief *relief = user;
+    return terrain_ceiling_m(&relief->ceiling, direction, reach_m / relief->surface.radius_m);
+}
+
+static void look(const void *user, struct vec3 direction, struct reference_look *out)
+{
+    const struct relief *relief = user;
+    const struct surface *surface = &relief->surface;
+    out->normal = surface_normal(surface, direction);
+    for (int c = 0; c < 3; c++) {
+        out->albedo_rgb[c] = (double)surface->default_albedo[c];
+        out->glow_rgb[c] = 0;
+    }
+    out->has_colour = surface_picture(surface, SURFACE_COLOUR, direction, out->albedo_rgb);
+    surface_picture(surface, SURFACE_LIGHTS, direction, out->glow_rgb);
+}
+
+struct reference_surface relief_surface(const struct relief *relief)
+{
+    return (struct reference_surface){.user = relief,
+                                      .lowest_m = surface_min_altitude(&relief->surface),
+                                      .highest_m = surface_max_altitude(&relief->surface),
+                                      .white_cd_m2 = relief->lights_cd_m2,
+                                      .altitude_m = find_altitude,
+                                      .step_m = find_step,
+                                      .ceiling_m = find_ceiling,
+                                      .look = look};
+}

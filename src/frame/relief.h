@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef FRAME_RELIEF_H
+#define FRAME_RELIEF_H
+// The ground of a scene as the path tracer asks for it: on the CPU, without OpenGL.
+
+#include "reference/surface.h"
+#include "scene/scene.h"
+#include "terrain/ceiling.h"
+
+struct relief {
+    bool is_bare; // no rasters: the path tracer's own sphere
+    struct surface surface;
+    struct terrain_ceiling ceiling;
+    double lights_cd_m2;
+};
+
+// Reads the rasters of a scene, which must outlive the relief. As surface_init_on_cpu.
+TRL_MUST_USE trl_result relief_init(const trl_context *ctx, const struct trl_scene *scene,
+                                    struct relief *out);
+void relief_finish(struct relief *relief);
+
+double relief_altitude_m(const struct relief *relief, double latitude_rad, double longitude_rad);
+
+// Must not outlive the relief.
+struct reference_surface relief_surface(const struct relief *relief);
+
+#endif // FRAME_RELIEF_H

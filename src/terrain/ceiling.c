@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "terrain/ceiling.h"
+
+#include "shared/cubic.glsl"
+
+#include <math.h>
+
+// Texels of a block of the lowest level, in each direction.
+enum { BLOCK = 4 };
+// Nearer to a pole than this times the neighbourhood's size, longitude says little.
+static const double POLE_FACTOR = 4;
+
+static uint32_t divide_up(uint32_t a, uint32_t b)
+{
+    return (a + b - 1) / b;
+}
+
+// The cubic reaches two texels beyond a block on each side, and overshoots by part of its range.
+static double bound_block(const struct terrain_layer *layer, uint32_t column, uint32_t row)
+{
+    const int64_t x = (int64_t)column * BLOCK, y = (int64_t)row * BLOCK;
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t j = y - 2; j < y + BLOCK + 2; j++) {
+        for (int64_t i = x - 2; i < x + BLOCK + 2; i++) {
+            const double height = layer_texel(layer, i, j);
+            low = fmin(low, height);
+            high = fmax(high, height);
+        }
+    }
+    return high + CUBIC_OVERSHOOT * (high - low);
+}
+
+static void fill_lowest(struct ceiling_pyramid *pyramid)
+{
+#pragma omp parallel for schedule(dynamic, 8)
+    for (uint32_t y = 0; y < pyramid->height[0]; y++) {
+        for (uint32_t x = 0; x < pyramid->width[0]; x++) {
+            // Rounded up: a float's half unit is 1e-7 of it.
+            const double bound = bound_block(pyramid->layer, x, y);
+            pyramid->highest[0][(size_t)y * pyramid->width[0] + x] =
+                (float)(bound + 1e-6 * fabs(bound));
+        }
+    }
+}
+
+static float block_at(const struct ceiling_pyramid *pyramid, int level, uint32_t x, uint32_t y)
+{
+    return pyramid->highest[level][(size_t)y * pyramid->width[level] + x];
+}
+
+static void fill_level(struct ceiling_pyramid *pyramid, int level)
+{
+    const uint32_t width = pyramid->width[level - 1], height = pyramid->height[level - 1];
+    for (uint32_t y = 0; y < pyramid->height[level]; y++) {
+        for (uint32_t x = 0; x < pyramid->width[level]; x++) {
+            const uint32_t right = 2 * x + 1 < width ? 2 * x + 1 : 2 * x;
+            const uint32_t below = 2 * y + 1 < height ? 2 * y + 1 : 2 * y;
+            const float upper = fmaxf(block_at(pyramid, level - 1, 2 * x, 2 * y),
+                                      block_at(pyramid, level - 1, right, 2 * y));
+            const float lower = fmaxf(block_at(pyramid, level - 1, 2 * x, below),
+                                      block_at(pyramid, level - 1, right, below));
+            pyramid->highest[level][(size_t)y * pyramid->width[level] + x] = fmaxf(upper, lower);
+        }
+    }
+}
+
+static trl_result pyramid_init(const trl_context *ctx, const struct terrain_layer *layer,
+                               struct ceiling_pyramid *out)
+{
+    *out = (struct ceiling_pyramid){.layer = layer};
+    uint32_t width = divide_up(layer->frame.width, BLOCK);
+    uint32_t height = divide_up(layer->frame.height, BLOCK);
+    size_t count = 0;
+    for (bool is_last = false; !is_last; out->level_count++) {
+        out->width[out->level_count] = width;
+        out->height[out->level_count] = height;
+        count += (size_t)width * height;
+        is_last = width == 1 && height == 1;
+        width = divide_up(width, 2);
+        height = divide_up(height, 2);
+    }
+    out->highest[0] = mem_alloc(ctx, count, sizeof(float));
+    if (!out->highest[0]) {
+        return TRL_ERROR_MEMORY;
+    }
+    fill_lowest(out);
+    for (int level = 1; level < out->level_count; level++) {
+        out->highest[level] =
+            out->highest[level - 1] + (size_t)out->width[level - 1] * out->height[level - 1];
+        fill_level(out, level);
+    }
+    out->all = (double)out->highest[out->level_count - 1][0];
+    return TRL_OK;
+}
+
+trl_result terrain_ceiling_init(const struct surface *surface, struct terrain_ceiling *out)
+{
+    *out = (struct terrain_ceiling){.surface = surface};
+    trl_result result = TRL_OK;
+    for (size_t i = 0; i < surface->counts[SURFACE_ELEVATION] && result == TRL_OK; i++) {
+        result = pyramid_init(surface->ctx, &surface->layers[SURFACE_ELEVATION][i],
+                              &out->pyramids[out->count]);
+        out->count += result == TRL_OK;
+    }
+    if (result != TRL_OK) {
+        terrain_ceiling_finish(out);
+    }
+    return result;
+}
+
+void terrain_ceiling_finish(struct terrain_ceiling *ceiling)
+{
+    for (size_t i = 0; i < ceiling->count; i++) {
+        mem_free(ceiling->surface->ctx, ceiling->pyramids[i].highest[0]);
+    }
+    *ceiling = (struct terrain_ceiling){0};
+}
+
+// A neighbourhood: a place, and how far it reaches from there.
+struct reach {
+    double latitude, longitude;
+    double north, east; // half extents; north < 0: everything
+};
+
+static struct reach find_reach(struct vec3 direction, double angle_rad)
+{
+    const double axis_distance = hypot(direction.x, direction.y);
+    const double cosine = axis_distance / vec3_length(direction);
+    struct reach reach = {atan2(direction.z, axis_distance), atan2(direction.y, direction.x),
+                          angle_rad, -1};
+    if (angle_rad < 0.5 && cosine > POLE_FACTOR * angle_rad) {
+        // The meridians that touch a circle: sin(east) = sin(angle) / cos(latitude).
+        reach.east = asin(fmin(1, sin(angle_rad) / cosine));
+    } else {
+        reach.north = -1;
+    }
+    return reach;
+}
+
+// The highest of the blocks of a level that the reach touches; columns wrap where the layer does.
+static double highest_of(const struct ceiling_pyramid *pyramid, const struct layer_place *place,
+                         const double reach[2])
+{
+    const double size = 2 * fmax(reach[0], reach[1]) / BLOCK;
+    const int level = size > 1 ? (int)ceil(log2(size)) : 0;
+    if (level >= pyramid->level_count) {
+        return pyramid->all;
+    }
+    const double texels = ldexp(BLOCK, level);
+    const struct layer_frame *frame = &pyramid->layer->frame;
+    const double width = frame->width;
+    double highest = -INFINITY;
+    // At most two blocks in each direction, so the corners see all of them.
+    for (int k = 0; k < 4; k++) {
+        double x = place->x + (k % 2 ? reach[0] : -reach[0]);
+        const double y = place->y + (k / 2 ? reach[1] : -reach[1]);
+        if (frame->is_whole_circle) {
+            x -= width * floor(x / width);
+            // The first and the last block of a row may be parts: where the circle closes, look at
+            // both.
+            if (x < reach[0] * 2 + BLOCK || x > width - reach[0] * 2 - BLOCK) {
+                return pyramid->all;
+            }
+        }
+        const double last_x = pyramid->width[level] - 1.0, last_y = pyramid->height[level] - 1.0;
+        const uint32_t column = (uint32_t)fmin(fmax(floor(x / texels), 0), last_x);
+        const uint32_t row = (uint32_t)fmin(fmax(floor(y / texels), 0), last_y);
+        highest = fmax(highest, (double)block_at(pyramid, level, column, row));
+    }
+    return highest;
+}
+
+static bool reaches_layer(const struct layer_frame *frame, const struct reach *reach)
+{
+    double east = reach->longitude - frame->centre_longitude;
+    east -= 2 * SHARED_PI * floor(east / (2 * SHARED_PI) + 0.5);
+    const double north = reach->latitude - frame->centre_latitude;
+    return (frame->is_whole_circle || fabs(east) <= frame->half_width + reach->east) &&
+           fabs(north) <= frame->half_height + reach->north + frame->texel_height;
+}
+
+double terrain_ceiling_m(const struct terrain_ceiling *ceiling, struct vec3 direction,
+                         double angle_rad)
+{
+    const struct reach reach = find_reach(direction, angle_rad);
+    double highest = 0; // where no layer is; layers are laid over it
+    for (size_t i = 0; i < ceiling->count; i++) {
+        const struct ceiling_pyramid *pyramid = &ceiling->pyramids[i];
+        const struct layer_frame *frame = &pyramid->layer->frame;
+        const bool is_nearly_round = !frame->is_whole_circle && frame->half_width + reach.east > 3;
+        if (reach.north < 0 || is_nearly_round) {
+            highest = fmax(highest, pyramid->all);
+        } else if (reaches_layer(frame, &reach)) {
+            const struct layer_place place = layer_locate(frame, reach.latitude, reach.longitude);
+            // A texel more: places are texels' middles.
+            const double texels[2] = {reach.east / frame->texel_width + 1,
+                                      reach.north / frame->texel_height + 1};
+            highest = fmax(highest, highest_of(pyramid, &place, texels));
+        }
+    }
+    return highest;
+}

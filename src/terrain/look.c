@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "terrain/look.h"
+
+#include <math.h>
+
+// Of a half texel, the distance of the two heights whose difference is the slope: within it the
+// cubic is nearly a parabola.
+static const double SLOPE_STEP = 0.25;
+static const double BARE_STEP = 0.01;
+
+struct place {
+    double latitude, longitude;
+};
+
+static struct place find_place(struct vec3 direction)
+{
+    return (struct place){atan2(direction.z, hypot(direction.x, direction.y)),
+                          atan2(direction.y, direction.x)};
+}
+
+// Linear between texels: RGBA of square roots, 0 to 1.
+static void sample_roots(const struct terrain_layer *layer, const struct layer_place *place,
+                         double rgba[4])
+{
+    const double column = floor(place->x), row = floor(place->y);
+    const double part_x = place->x - column, part_y = place->y - row;
+    for (int c = 0; c < 4; c++) {
+        rgba[c] = 0;
+    }
+    for (int k = 0; k < 4; k++) {
+        const double weight = (k % 2 ? part_x : 1 - part_x) * (k / 2 ? part_y : 1 - part_y);
+        const size_t texel =
+            layer_texel_index(&layer->frame, (int64_t)column + k % 2, (int64_t)row + k / 2);
+        for (size_t c = 0; c < 4; c++) {
+            rgba[c] += weight * layer->roots[4 * texel + c] / 255;
+        }
+    }
+}
+
+bool surface_picture(const struct surface *surface, enum surface_kind kind, struct vec3 direction,
+                     double rgb[3])
+{
+    const struct place at = find_place(direction);
+    bool is_covered = false;
+    double root[3] = {sqrt(rgb[0]), sqrt(rgb[1]), sqrt(rgb[2])};
+    for (size_t i = 0; i < surface->counts[kind]; i++) {
+        const struct terrain_layer *layer = &surface->layers[kind][i];
+        const struct layer_place place = layer_locate(&layer->frame, at.latitude, at.longitude);
+        if (!(place.weight > 0) || !layer->roots) {
+            continue;
+        }
+        double rgba[4];
+        sample_roots(layer, &place, rgba);
+        const double cover = rgba[3] * place.weight;
+        for (int c = 0; c < 3; c++) {
+            root[c] += cover * (rgba[c] - root[c]);
+        }
+        is_covered = is_covered || cover > 0;
+    }
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = root[c] * root[c];
+    }
+    return is_covered;
+}
+
+double surface_half_texel_m(const struct surface *surface, struct vec3 direction)
+{
+    const struct place at = find_place(direction);
+    double finest = 2 * BARE_STEP;
+    for (size_t i = 0; i < surface->counts[SURFACE_ELEVATION]; i++) {
+        const struct layer_frame *frame = &surface->layers[SURFACE_ELEVATION][i].frame;
+        if (layer_locate(frame, at.latitude, at.longitude).weight > 0) {
+            finest = fmin(finest, frame->texel_height);
+        }
+    }
+    return 0.5 * finest * surface->radius_m;
+}
+
+struct vec3 surface_normal(const struct surface *surface, struct vec3 direction)
+{
+    const struct vec3 up = vec3_normalize(direction);
+    const struct vec3 axis = fabs(up.z) < 0.9 ? (struct vec3){0, 0, 1} : (struct vec3){1, 0, 0};
+    const struct vec3 along[2] = {vec3_normalize(vec3_cross(axis, up)),
+                                  vec3_cross(up, vec3_normalize(vec3_cross(axis, up)))};
+    const double step = SLOPE_STEP * surface_half_texel_m(surface, up) / surface->radius_m;
+    struct vec3 normal = up;
+    for (int i = 0; i < 2; i++) {
+        const struct vec3 aside = vec3_scale(along[i], step);
+        const double rise = surface_altitude(surface, vec3_add(up, aside)) -
+                            surface_altitude(surface, vec3_sub(up, aside));
+        // Steeper the larger the radius is that an angle is taken on.
+        const double slope =
+            rise / (2 * step * (surface->radius_m + surface_altitude(surface, up)));
+        normal = vec3_sub(normal, vec3_scale(along[i], slope));
+    }
+    return vec3_normalize(normal);
+}

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef TERRAIN_LOOK_H
+#define TERRAIN_LOOK_H
+// What the ground looks like at a point, on the CPU: for surfaces without a GPU. Pictures are laid
+// over each other as terrain/surface.frag does it, at their finest level.
+
+#include "terrain/surface.h"
+
+// Linear sRGB of the pictures of a kind over `below`, which is kept where there are none. False
+// if no picture reaches there.
+bool surface_picture(const struct surface *surface, enum surface_kind kind, struct vec3 direction,
+                     double rgb[3]);
+
+// Unit normal of the composed heights.
+struct vec3 surface_normal(const struct surface *surface, struct vec3 direction);
+
+// Half the height of a texel, in m on the sphere, of the finest elevation layer that reaches there;
+// without one a hundredth of the radius.
+double surface_half_texel_m(const struct surface *surface, struct vec3 direction);
+
+#endif // TERRAIN_LOOK_H
