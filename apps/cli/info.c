@@ -86,7 +86,8 @@ static enum exit_status print_scene(struct app *app, const char *path)
                trl_scene_layer_name(scene, i), trl_scene_layer_path(scene, i));
     }
     if (missing > 0) {
-        printf("  %zu missing: \"make data\" in the source tree fetches those of Earth\n", missing);
+        printf("  %zu missing: \"make data\" in the source tree fetches those of its scenes\n",
+               missing);
     }
     trl_scene_destroy(&scene);
     return EXIT_OK;
