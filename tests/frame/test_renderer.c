@@ -353,6 +353,7 @@ static void running_out_of_memory_is_a_result_and_leaks_nothing(void **state)
 {
     starve(state, TRL_SKY_SPECTRAL);
     starve(state, TRL_SKY_SINGLE);
+    starve(state, TRL_SKY_RAYLEIGH);
 }
 
 static void the_gl_of_the_machine_is_described(void **state)
