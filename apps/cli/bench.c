@@ -25,6 +25,12 @@ static const struct bench benches[] = {
      NULL},
     {"schafhitzel-table2", "single scattering on spheres: 3D table against integrals at vertices",
      bench_run_schafhitzel_table2, "Schafhitzel, Falk and Ertl 2007, Table 2"},
+    {"santana-samples", "model rayleigh: points along a line of sight, error and time",
+     bench_run_santana_samples, "Santana, Trujillo, Suarez and Ortega 2017, Section 8.2"},
+    {"santana-spectrum", "model rayleigh: wavelengths, error of colour and time",
+     bench_run_santana_spectrum, "Santana, Trujillo, Suarez and Ortega 2017, Section 8.3"},
+    {"santana-fit", "model rayleigh: optical depth by polynomials, error and time",
+     bench_run_santana_fit, "Santana, Trujillo, Suarez and Ortega 2017, Section 8.1"},
 };
 enum { BENCH_COUNT = sizeof benches / sizeof benches[0] };
 _Static_assert((int)BENCH_COUNT <= (int)OPTIONS_MAX_POSITIONALS, "all can be named at once");

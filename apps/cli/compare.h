@@ -25,6 +25,7 @@ struct compare_desc {
     const trl_view *view;
     const char *view_name;
     struct compare_models models;
+    trl_rayleigh_desc rayleigh;
     struct number_size size; // of each model's picture
     uint32_t samples;
     const char *output;

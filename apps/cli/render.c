@@ -220,6 +220,8 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     desc.scene = scene;
     desc.sky_model = arguments->view.sky_model;
     desc.air = (trl_air)arguments->view.air;
+    const trl_rayleigh_desc rayleigh = rayleigh_choice_resolve(&arguments->view.rayleigh, scene);
+    desc.rayleigh = &rayleigh;
     desc.measures_time = arguments->shows_timings;
     trl_renderer *renderer = NULL;
     trl_result result = trl_renderer_create(app->ctx, &desc, &renderer);
@@ -255,16 +257,17 @@ static struct compare_desc make_comparison(struct app *app, const trl_scene *sce
     if (!name) {
         name = trl_scene_view_count(scene) > 0 ? trl_scene_view_name(scene, 0) : "";
     }
-    return (struct compare_desc){.app = app,
-                                 .scene = scene,
-                                 .view = view,
-                                 .view_name = name,
-                                 .models = arguments->models,
-                                 .size = arguments->size,
-                                 .samples = sample_count(arguments),
-                                 .output = arguments->output,
-                                 .is_exr =
-                                     strcasecmp(output_suffix(arguments->output), "exr") == 0};
+    return (struct compare_desc){
+        .app = app,
+        .scene = scene,
+        .view = view,
+        .view_name = name,
+        .models = arguments->models,
+        .size = arguments->size,
+        .rayleigh = rayleigh_choice_resolve(&arguments->view.rayleigh, scene),
+        .samples = sample_count(arguments),
+        .output = arguments->output,
+        .is_exr = strcasecmp(output_suffix(arguments->output), "exr") == 0};
 }
 
 static enum exit_status render_scene(struct app *app, const trl_scene *scene,
@@ -311,7 +314,8 @@ static enum exit_status check_arguments(const struct render_arguments *arguments
         return report_error(EXIT_USAGE, "render: --reference cannot be given with --compare, "
                                         "--samples, --timings or --sky-model");
     }
-    return traced_check(&arguments->traced);
+    const enum exit_status status = rayleigh_choice_check(&arguments->view.rayleigh);
+    return status == EXIT_OK ? traced_check(&arguments->traced) : status;
 }
 
 enum exit_status command_render(int argc, char **argv)

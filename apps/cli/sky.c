@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "csv.h"
 #include "output.h"
+#include "rayleigh_options.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,6 +37,7 @@ struct sky_arguments {
     const char *queries; // NULL: the lists
     int solver;          // a trl_sky_model
     struct option_number orders, paths, seed;
+    struct rayleigh_choice rayleigh;
     const char *output; // NULL: standard output
     bool is_quiet;
 };
@@ -76,7 +78,7 @@ static const char *const metavars[PART_COUNT] = {"M", "DEG", "LIST", "LIST", "LI
 
 static enum options_outcome read_arguments(int argc, char **argv, struct sky_arguments *out)
 {
-    *out = (struct sky_arguments){0};
+    *out = (struct sky_arguments){.rayleigh = rayleigh_choice_default()};
     struct option query[PART_COUNT + 1];
     for (int i = 0; i < PART_COUNT; i++) {
         query[i] = (struct option){.name = parts[i].option,
@@ -127,6 +129,8 @@ static enum options_outcome read_arguments(int argc, char **argv, struct sky_arg
          .is_whole = true,
          .help = "Of the path tracer: the same seed gives the same numbers. Default: 0."},
     };
+    struct option rayleigh[RAYLEIGH_OPTIONS];
+    rayleigh_options_make(&out->rayleigh, rayleigh);
     const struct option result[] = {
         {.name = "output",
          .letter = 'o',
@@ -140,9 +144,11 @@ static enum options_outcome read_arguments(int argc, char **argv, struct sky_arg
          .target.flag = &out->is_quiet,
          .help = "No progress line."},
     };
-    const struct option_section sections[] = {{"Query", query, PART_COUNT + 1},
-                                              {"Solver", solver, sizeof solver / sizeof *solver},
-                                              {"Result", result, sizeof result / sizeof *result}};
+    const struct option_section sections[] = {
+        {"Query", query, PART_COUNT + 1},
+        {"Solver", solver, sizeof solver / sizeof *solver},
+        {RAYLEIGH_OPTIONS_HEADING, rayleigh, RAYLEIGH_OPTIONS},
+        {"Result", result, sizeof result / sizeof *result}};
     const struct option_spec spec = {.command = "sky",
                                      .positional = "SCENE",
                                      .min_positionals = 1,
@@ -301,10 +307,12 @@ static trl_sky_desc make_desc(const struct sky_arguments *arguments)
 static enum exit_status solve(struct app *app, const struct sky_arguments *arguments,
                               const struct questions *questions, struct answers *answers)
 {
-    const trl_sky_desc desc = make_desc(arguments);
+    trl_sky_desc desc = make_desc(arguments);
     trl_scene *scene = NULL;
     trl_result result = trl_scene_load(app->ctx, arguments->scene, &scene);
     if (result == TRL_OK && questions->count > 0) {
+        const trl_rayleigh_desc rayleigh = rayleigh_choice_resolve(&arguments->rayleigh, scene);
+        desc.rayleigh = &rayleigh;
         result = trl_sky_radiance(app->ctx, scene, &desc, questions->queries, questions->count,
                                   answers->radiance, answers->standard_error);
     }
@@ -377,7 +385,7 @@ static enum exit_status check_arguments(const struct sky_arguments *arguments)
                                 parts[i].option);
         }
     }
-    return EXIT_OK;
+    return rayleigh_choice_check(&arguments->rayleigh);
 }
 
 enum exit_status command_sky(int argc, char **argv)

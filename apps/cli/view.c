@@ -84,12 +84,15 @@ static enum exit_status open_window(struct app *app, const struct view_arguments
         status = view_choice_apply(&arguments->view, scene, &view);
     }
     if (status == EXIT_OK) {
+        const trl_rayleigh_desc rayleigh =
+            rayleigh_choice_resolve(&arguments->view.rayleigh, scene);
         const double frames = arguments->frames.is_given ? arguments->frames.value : 0.0;
         struct viewer_desc desc = {.ctx = app->ctx,
                                    .scene = scene,
                                    .scene_path = arguments->scene,
                                    .sky_model = arguments->view.sky_model,
                                    .air = (trl_air)arguments->view.air,
+                                   .rayleigh = &rayleigh,
                                    .view = view,
                                    .width = arguments->size.width,
                                    .height = arguments->size.height,
@@ -116,6 +119,9 @@ enum exit_status command_view(int argc, char **argv)
         return outcome == OPTIONS_HELP ? EXIT_OK : EXIT_USAGE;
     }
     enum exit_status status = check_screenshot(arguments.screenshot);
+    if (status == EXIT_OK) {
+        status = rayleigh_choice_check(&arguments.view.rayleigh);
+    }
     if (status != EXIT_OK) {
         return status;
     }

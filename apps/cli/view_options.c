@@ -27,8 +27,10 @@ static const struct number_range stops = {-40.0, 40.0};
 
 struct view_choice view_choice_default(void)
 {
-    return (struct view_choice){
-        .tone = -1, .air = TRL_AIR_MARCH, .sky_model = TRL_SKY_MODEL_OF_SCENE};
+    return (struct view_choice){.tone = -1,
+                                .air = TRL_AIR_MARCH,
+                                .sky_model = TRL_SKY_MODEL_OF_SCENE,
+                                .rayleigh = rayleigh_choice_default()};
 }
 
 static struct option make_number(const char *name, struct option_number *target,
@@ -122,6 +124,8 @@ enum options_outcome view_command_read(const struct view_command *command, int a
     make_camera(command->choice, camera);
     make_sun(command->choice, sun);
     make_exposure(command->choice, exposure);
+    struct option rayleigh[RAYLEIGH_OPTIONS];
+    rayleigh_options_make(&command->choice->rayleigh, rayleigh);
     const struct option sky[] = {
         {.name = "sky-model",
          .kind = OPTION_CHOICE,
@@ -141,11 +145,13 @@ enum options_outcome view_command_read(const struct view_command *command, int a
              "Of the spectral sky: march (terrain casts shadows into the air) or table (it does "
              "not; faster). Default: march."},
     };
-    const struct option_section sections[] = {command->own,
-                                              {"Camera", camera, CAMERA_OPTIONS},
-                                              {"Sun", sun, SUN_OPTIONS},
-                                              {"Exposure", exposure, EXPOSURE_OPTIONS},
-                                              {"Sky", sky, sizeof sky / sizeof *sky}};
+    const struct option_section sections[] = {
+        command->own,
+        {"Camera", camera, CAMERA_OPTIONS},
+        {"Sun", sun, SUN_OPTIONS},
+        {"Exposure", exposure, EXPOSURE_OPTIONS},
+        {"Sky", sky, sizeof sky / sizeof *sky},
+        {RAYLEIGH_OPTIONS_HEADING, rayleigh, RAYLEIGH_OPTIONS}};
     const struct option_spec spec = {.command = command->name,
                                      .positional = "SCENE",
                                      .min_positionals = 1,

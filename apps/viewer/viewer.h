@@ -30,9 +30,10 @@ struct viewer_desc {
     const char *scene_path; // the file, which is followed when it is saved; NULL: not followed
     int sky_model;          // as in trl_renderer_desc
     trl_air air;            // to begin with
-    trl_view view;          // where it begins
-    uint32_t width, height; // of the window
-    uint64_t frame_limit;   // quit after so many frames; 0: never
+    const trl_rayleigh_desc *rayleigh; // as in trl_renderer_desc
+    trl_view view;                     // where it begins
+    uint32_t width, height;            // of the window
+    uint64_t frame_limit;              // quit after so many frames; 0: never
     const char *screenshot; // PNG written from the last frame before it quits by itself; NULL: none
     bool (*is_stopped)(void); // asked once a frame: quit?
 };

@@ -78,6 +78,23 @@ class Bench(ProgramTest):
             self.assertGreater(rows[case, "vertex shader"]["min"], 0.0)
             self.assertGreater(rows[case, "optimized / vertex shader"]["min"], 0.0)
 
+    def test_samples_and_wavelengths_of_the_model_rayleigh(self):
+        done = self.expect_success("bench", "santana-samples", "santana-spectrum", "santana-fit", "--json", "--runs", RUNS)
+        samples, spectrum, fit = [json.loads(line) for line in done.stdout.splitlines()]
+        rows = {(row["case"], row["metric"]): row for row in samples["rows"]}
+        self.assertEqual(rows["full-disc, 13 to 5 samples", "error"]["paper"], 16.15)
+        # From the ground the star is in the picture: its disc must not hide the sky's error.
+        for view in ["full-disc", "limb", "ground", "sunset"]:
+            errors = [rows[f"{view}, {n} samples", "error"]["min"] for n in [3, 5, 7, 9, 11, 13]]
+            self.assertEqual(errors, sorted(errors, reverse=True))
+            self.assertGreater(errors[0], 0.01)
+        rows = {(row["case"], row["metric"]): row for row in spectrum["rows"]}
+        self.assertEqual(rows["full-disc, 20 to 10 wavelengths", "error"]["paper"], 9.81)
+        self.assertGreater(rows["ground, 3 wavelengths", "error"]["min"], rows["ground, 10 wavelengths", "error"]["min"])
+        rows = {(row["case"], row["metric"]): row for row in fit["rows"]}
+        self.assertEqual(rows["10 heights, degree 5", "mean error"]["paper"], 2.84)
+        self.assertLess(rows["texture", "mean error"]["min"], rows["10 heights, degree 5", "mean error"]["min"])
+
     def test_start(self):
         start, = self.measure("start")
         self.check_form(start, "start")

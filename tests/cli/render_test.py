@@ -208,6 +208,29 @@ class Comparisons(ProgramTest):
                                 ["--compare", more[0]])
 
 
+class Rayleigh(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write_scene()
+
+    def draw(self, *more):
+        self.expect_success("render", self.scene, "--size", SIZE, "--sky-model", "rayleigh", "-q", "-o", "a.exr", *more)
+        return (self.work / "a.exr").read_bytes()
+
+    def test_each_option_reaches_the_picture(self):
+        plain = self.draw()
+        self.assertEqual(plain, self.draw("--rayleigh-samples", "5", "--rayleigh-wavelengths", "10"))
+        for more in [["samples", "13"], ["wavelengths", "3"], ["optical-depth", "fit"], ["height-scale", "15"],
+                     ["out-scattering", "off"]]:
+            self.assertNotEqual(plain, self.draw("--rayleigh-" + more[0], more[1]), more)
+
+    def test_wrong_options(self):
+        for name, value in [("samples", "4"), ("samples", "1"), ("samples", "67"), ("wavelengths", "41"),
+                            ("wavelengths", "3.5"), ("optical-depth", "table"), ("height-scale", "0"),
+                            ("out-scattering", "maybe")]:
+            self.expect_failure(2, ["render", self.scene, "--rayleigh-" + name, value], ["--rayleigh-" + name])
+
+
 class Failures(ProgramTest):
     def expect_wrong(self, scene, *mentions, output="a.png"):
         self.expect_failure(1, ["render", scene, "--size", SIZE, "-o", output], mentions)
