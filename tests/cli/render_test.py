@@ -8,7 +8,7 @@ import struct
 import time
 import unittest
 
-from process import IS_SLOW, THIN_SCENE, ProgramTest, count_values, read_png, require_gl
+from process import IS_SLOW, SCENES, THIN_SCENE, ProgramTest, count_values, read_png, require_gl
 
 SIZE = "96x54"
 
@@ -209,9 +209,7 @@ class Comparisons(ProgramTest):
 
 
 class Rayleigh(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.scene = self.write_scene()
+    scene = SCENES / "bare-sphere.json"  # has a gas
 
     def draw(self, *more):
         self.expect_success("render", self.scene, "--size", SIZE, "--sky-model", "rayleigh", "-q", "-o", "a.exr", *more)
