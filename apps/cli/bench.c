@@ -31,6 +31,12 @@ static const struct bench benches[] = {
      bench_run_santana_spectrum, "Santana, Trujillo, Suarez and Ortega 2017, Section 8.3"},
     {"santana-fit", "model rayleigh: optical depth by polynomials, error and time",
      bench_run_santana_fit, "Santana, Trujillo, Suarez and Ortega 2017, Section 8.1"},
+    {"elek-precompute", "light in the air by orders and by wavelengths, and its tables",
+     bench_run_elek_precompute, "Elek and Kmoch 2010, Section 6"},
+    {"elek-fps", "frames per second over all views of a scene, on small and large screens",
+     bench_run_elek_fps, "Elek and Kmoch 2010, Section 6"},
+    {"elek-rgb-vs-spectral", "colours from three wavelengths against those from sixteen",
+     bench_run_elek_rgb, "Elek and Kmoch 2010, Figure 6"},
 };
 enum { BENCH_COUNT = sizeof benches / sizeof benches[0] };
 _Static_assert((int)BENCH_COUNT <= (int)OPTIONS_MAX_POSITIONALS, "all can be named at once");

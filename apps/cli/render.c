@@ -14,7 +14,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { TIMINGS_MAX = 64, DRAWN_OPTIONS = 7 };
+enum { TIMINGS_MAX = 64, DRAWN_OPTIONS = 8 };
 static const char default_output[] = "terrella.png";
 
 struct render_arguments {
@@ -23,6 +23,7 @@ struct render_arguments {
     struct number_size size;
     struct option_number samples;
     struct view_choice view;
+    int spectrum;        // a trl_spectrum
     const char *compare; // models between commas; NULL: one picture
     struct compare_models models;
     struct traced_arguments traced;
@@ -46,6 +47,9 @@ static const char examples[] =
     "  terrella render scenes/earth.json --view orbit --size 320x180 \\\n"
     "      --reference --paths 256 -o traced.exr --error error.exr\n";
 
+// In the order of trl_spectrum.
+static const char *const spectrum_words[] = {"full", "rgb", NULL};
+
 static void make_options(struct render_arguments *out, struct option options[])
 {
     const struct option drawn[DRAWN_OPTIONS] = {
@@ -68,6 +72,13 @@ static void make_options(struct render_arguments *out, struct option options[])
          .range = {1, 4},
          .is_whole = true,
          .help = "Draw N x N times the pixels and average: smooth edges. 1 to 4. Default: 1."},
+        {.name = "spectrum",
+         .kind = OPTION_CHOICE,
+         .target.choice = &out->spectrum,
+         .choices = spectrum_words,
+         .metavar = "NAME",
+         .help = "Of the spectral sky: full (16 wavelengths) or rgb (one each of red, green and "
+                 "blue, to see what that costs in colour). Default: full."},
         {.name = "compare",
          .kind = OPTION_TEXT,
          .target.text = &out->compare,
@@ -135,6 +146,11 @@ static enum exit_status complete_arguments(struct render_arguments *arguments)
     }
     if (status == EXIT_OK && arguments->compare && arguments->shows_timings) {
         status = report_error(EXIT_USAGE, "render: --compare and --timings cannot both be given");
+    }
+    if (status == EXIT_OK && arguments->spectrum != TRL_SPECTRUM_FULL &&
+        (arguments->compare || arguments->traced.is_wanted)) {
+        status = report_error(EXIT_USAGE, "render: --spectrum rgb goes with neither --compare nor "
+                                          "--reference");
     }
     if (status == EXIT_OK && arguments->compare &&
         arguments->view.sky_model != TRL_SKY_MODEL_OF_SCENE) {
@@ -222,6 +238,7 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     desc.air = (trl_air)arguments->view.air;
     const trl_rayleigh_desc rayleigh = rayleigh_choice_resolve(&arguments->view.rayleigh, scene);
     desc.rayleigh = &rayleigh;
+    desc.spectrum = (trl_spectrum)arguments->spectrum;
     desc.measures_time = arguments->shows_timings;
     trl_renderer *renderer = NULL;
     trl_result result = trl_renderer_create(app->ctx, &desc, &renderer);

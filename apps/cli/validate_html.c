@@ -113,7 +113,11 @@ static void write_explanation(FILE *page, const struct validate *v)
             "<p><b>The bounds</b> of the spectral model are %.0f&nbsp;%% in the mean and "
             "%.0f&nbsp;%% at most, in every view. Where the noise itself is larger than that, the "
             "view says so. The other models have one order of scattering by design; their errors "
-            "are shown, not judged.</p>\n",
+            "are shown, not judged. Their largest errors belong to dark directions: the error is "
+            "relative to the direction&rsquo;s own light, so 300&nbsp;%% of a value that is a "
+            "hundredth of the view&rsquo;s mean is 3&nbsp;%% of that mean. After sunset nearly all "
+            "light has been scattered twice or more, and an error near 100&nbsp;%% says that a "
+            "model of one scattering has hardly any.</p>\n",
             judge_granted_sigmas(validate_sum(v, NULL, TRL_SKY_SPECTRAL).views * VALIDATE_VALUES),
             100 * JUDGE_MEAN_BOUND, 100 * JUDGE_LARGEST_BOUND);
 }

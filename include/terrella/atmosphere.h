@@ -67,9 +67,10 @@ TRL_API TRL_MUST_USE trl_result trl_rayleigh_errors_read(trl_context *ctx, const
 typedef struct trl_atmosphere trl_atmosphere;
 
 typedef struct trl_atmosphere_desc {
-    uint32_t canary;      ///< set by trl_atmosphere_desc_default(); never touch
-    uint32_t wavelengths; ///< for the solver, 1 to 16
-    bool uses_cache;      ///< take from the context's cache folder, and keep there
+    uint32_t canary;       ///< set by trl_atmosphere_desc_default(); never touch
+    uint32_t wavelengths;  ///< for the solver, 1 to 16
+    trl_spectrum spectrum; ///< default TRL_SPECTRUM_FULL; TRL_SPECTRUM_RGB has three wavelengths
+    bool uses_cache;       ///< take from the context's cache folder, and keep there
 } trl_atmosphere_desc;
 
 /// What an atmosphere took and holds.

@@ -58,6 +58,7 @@ typedef struct trl_renderer_desc {
     const trl_scene *scene; ///< must outlive the renderer
     trl_gl gl;              ///< default TRL_GL_HEADLESS
     uint32_t wavelengths;   ///< to solve for, [1, TRL_RENDERER_MAX_WAVELENGTHS]; default 16
+    trl_spectrum spectrum;  ///< of TRL_SKY_SPECTRAL; default TRL_SPECTRUM_FULL
     int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
     trl_air air;            ///< default TRL_AIR_MARCH
     const trl_rayleigh_desc *rayleigh; ///< for TRL_SKY_RAYLEIGH; copied; NULL (default): as the

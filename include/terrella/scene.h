@@ -71,6 +71,14 @@ enum {
 /// A desc with every default set. Threads: any.
 TRL_API trl_rayleigh_desc trl_rayleigh_desc_default(void);
 
+/// Which wavelengths pictures of TRL_SKY_SPECTRAL are solved at. The other models have their own.
+typedef enum trl_spectrum {
+    TRL_SPECTRUM_FULL, ///< "full": spread evenly over what eyes see, as many as the desc says
+    TRL_SPECTRUM_RGB   ///< "rgb": one each of red, green and blue (680, 550, 440 nm), whatever the
+                       ///< desc says; taken as a spectrum of three samples, so that white stays
+                       ///< white (Elek 2010, Section 4.4). To compare with, not for good pictures
+} trl_spectrum;
+
 /// How a view says where a body of the scene is.
 typedef enum trl_body_mode {
     TRL_BODY_ABSENT,   ///< not in the picture, and without effect on it

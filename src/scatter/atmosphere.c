@@ -36,6 +36,18 @@ static struct solver_settings choose_settings(const struct optics *optics,
     return s;
 }
 
+// Red, green and blue: those of Bruneton and Neyret 2008, whose tables hold three wavelengths;
+// Elek 2010 compares with three and does not print his.
+static void choose_wavelengths(struct atmosphere *a, uint32_t wavelengths)
+{
+    static const double rgb_nm[] = {440, 550, 680};
+    if (wavelengths == ATMOSPHERE_RGB) {
+        optics_init(a->optics, &a->medium, rgb_nm, 3);
+    } else {
+        optics_init_visible(a->optics, &a->medium, (int)wavelengths);
+    }
+}
+
 static void choose_bands(struct atmosphere *a)
 {
     struct band_fit fit;
@@ -114,7 +126,7 @@ trl_result atmosphere_create(const trl_context *ctx, const struct medium *medium
                              const struct atmosphere_desc *desc, struct atmosphere **out)
 {
     *out = NULL;
-    if (desc->wavelengths < 1 || desc->wavelengths > LANES) {
+    if (desc->wavelengths < 1 || desc->wavelengths > ATMOSPHERE_RGB) {
         return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
                         "%u wavelengths cannot be solved: from 1 to %d", desc->wavelengths, LANES);
     }
@@ -129,7 +141,7 @@ trl_result atmosphere_create(const trl_context *ctx, const struct medium *medium
         result = TRL_ERROR_MEMORY;
     }
     if (result == TRL_OK) {
-        optics_init_visible(a->optics, &a->medium, (int)desc->wavelengths);
+        choose_wavelengths(a, desc->wavelengths);
         result = obtain(a, desc);
     }
     if (result != TRL_OK || !a->table.texels) {

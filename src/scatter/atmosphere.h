@@ -11,8 +11,11 @@ enum atmosphere_quality {
     ATMOSPHERE_DRAFT // in a fraction of the time; never cached
 };
 
+// Instead of a number of wavelengths: three, in red, green and blue.
+enum { ATMOSPHERE_RGB = LANES + 1 };
+
 struct atmosphere_desc {
-    uint32_t wavelengths; // for the solver, 1 .. LANES
+    uint32_t wavelengths; // for the solver, 1 .. LANES, or ATMOSPHERE_RGB
     bool uses_cache;
     bool only_from_cache; // nothing is computed: *out is NULL where the cache has none
     enum atmosphere_quality quality;

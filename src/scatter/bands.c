@@ -254,6 +254,21 @@ static void derive_albedo(struct bands *bands)
     }
 }
 
+// The star has light in all three colours.
+static bool has_white(const struct bands *bands)
+{
+    for (int k = 0; k < 3; k++) {
+        float white = 0;
+        for (int r = 0; r < BAND_COUNT; r++) {
+            white += bands->rgb_from_bands[k][r];
+        }
+        if (!(white > 0)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 // A scene with fewer than four wavelengths, or black in all of them, shows what it has.
 static void choose_few(const struct band_fit *fit, struct bands *out)
 {
@@ -276,6 +291,9 @@ static void choose_few(const struct band_fit *fit, struct bands *out)
         for (int k = 0; k < 3; k++) {
             out->rgb_from_bands[k][nearest] += (float)fit->rgb_from_lanes[k][lane];
         }
+    }
+    if (count == 3 && has_white(out)) {
+        derive_albedo(out); // three wavelengths tell colours of surfaces apart
     }
 }
 

@@ -11,8 +11,8 @@ RUNS = 1 if IS_SLOW else 2
 
 
 class Bench(ProgramTest):
-    def measure(self, *words):
-        done = self.expect_success("bench", *words, "--json", "--runs", RUNS, "--scene", self.write_scene())
+    def measure(self, *words, runs=RUNS):
+        done = self.expect_success("bench", *words, "--json", "--runs", runs, "--scene", self.write_scene())
         return [json.loads(line) for line in done.stdout.splitlines()]
 
     def check_form(self, bench, name):
@@ -94,6 +94,41 @@ class Bench(ProgramTest):
         rows = {(row["case"], row["metric"]): row for row in fit["rows"]}
         self.assertEqual(rows["10 heights, degree 5", "mean error"]["paper"], 2.84)
         self.assertLess(rows["texture", "mean error"]["min"], rows["10 heights, degree 5", "mean error"]["min"])
+
+    @unittest.skipIf(IS_SLOW, "solves nine times; what it calls is tested with sanitizers by the others")
+    def test_precomputation_of_a_paper(self):
+        table, = self.measure("elek-precompute", runs=1)
+        rows = {(row["case"], row["metric"]): row for row in table["rows"]}
+        self.assertEqual(rows["the paper's tables", "time"]["paper"], 5400)
+        self.assertEqual(rows["the paper's tables", "tables"]["paper"], 10)
+        for count in [3, 8, 15, 16]:
+            case = f"pictures, {count} wavelengths"
+            self.assertGreater(rows[case, "solve and table"]["min"], 0.0)
+            self.assertGreater(rows[case, "tables"]["min"], 1.0)
+        self.assertGreater(rows["numbers, 6 orders", "solve"]["min"], 0.0)
+
+    @unittest.skipIf(IS_SLOW, "large pictures; what it calls is tested with sanitizers by sky-frame")
+    def test_frames_of_a_paper(self):
+        table, = self.measure("elek-fps", runs=1)
+        rows = {(row["case"], row["metric"]): row for row in table["rows"]}
+        for size, average, least in [("1024x768", 180, 85), ("2560x2048", 60, 29)]:
+            rates = [rows[f"{view} {size}", "frames"]["min"] for view in ["ground", "orbit"]]
+            self.assertEqual(rows[f"all views {size}", "average"]["paper"], average)
+            self.assertEqual(rows[f"all views {size}", "least"]["paper"], least)
+            self.assertAlmostEqual(rows[f"all views {size}", "least"]["min"], min(rates), delta=0.01 * min(rates))
+            # As many frames in all as views: the harmonic mean.
+            mean = len(rates) / sum(1 / rate for rate in rates)
+            self.assertAlmostEqual(rows[f"all views {size}", "average"]["min"], mean, delta=0.01 * mean)
+
+    def test_three_wavelengths_are_not_sixteen(self):
+        table, = self.measure("elek-rgb-vs-spectral", runs=1)
+        rows = {(row["case"], row["metric"]): row["median"] for row in table["rows"]}
+        for view in ["ground", "orbit"]:
+            # Something differs, and white stays white: far less than another colour would.
+            self.assertGreater(rows[view, "luminance, mean difference"], 0.01)
+            self.assertLess(rows[view, "luminance, mean difference"], 50)
+            self.assertGreater(rows[view, "colour, mean distance in u'v'"], 1e-5)
+            self.assertLess(rows[view, "colour, mean distance in u'v'"], 0.1)
 
     def test_start(self):
         start, = self.measure("start")

@@ -77,7 +77,8 @@ class Pictures(ProgramTest):
         self.assertEqual(draw("--ev100", "12"), plain)
         changes = [["--ev100", "10"], ["--ev100", "12", "--bias", "1"], ["--ev100", "12", "--tone", "exponential"],
                    ["--ev100", "12", "--sun-elevation", "10"], ["--ev100", "12", "--heading", "200"],
-                   ["--ev100", "12", "--altitude", "50000"], ["--ev100", "12", "--fov", "20"]]
+                   ["--ev100", "12", "--altitude", "50000"], ["--ev100", "12", "--fov", "20"],
+                   ["--ev100", "12", "--spectrum", "rgb"]]
         for options in changes:
             self.assertNotEqual(draw(*options), plain, options)
 
@@ -147,6 +148,7 @@ class Traced(ProgramTest):
         for alone in [["--paths", "9"], ["--seed", "1"], ["--orders", "2"], ["--error", "e.exr"]]:
             self.expect_failure(2, ["render", self.scene] + alone, ["--reference", alone[0]])
         self.expect_failure(2, self.words + ["--error", "e.png"], ["e.png", ".exr"])
+        self.expect_failure(2, self.words + ["--spectrum", "rgb"], ["--spectrum", "--reference"])
         self.expect_failure(2, self.words[:-1] + ["0"], ["--paths"])
         self.expect_failure(1, self.words + ["--error", "missing/e.exr"], ["missing/e.exr", "cannot be written"])
 
@@ -203,7 +205,7 @@ class Comparisons(ProgramTest):
         for models, mention in [("spectral", "not enough"), ("spectral,spectral", "twice"), ("spectral,nishita", "nishita"),
                                 ("spectral,", "''"), (",", "''"), ("spectral,reference", "reference")]:
             self.expect_failure(2, ["render", self.scene, "--compare", models], ["--compare", mention])
-        for more in [["--sky-model", "spectral"], ["--timings"]]:
+        for more in [["--sky-model", "spectral"], ["--timings"], ["--spectrum", "rgb"]]:
             self.expect_failure(2, ["render", self.scene, "--compare", "spectral,single"] + more,
                                 ["--compare", more[0]])
 
