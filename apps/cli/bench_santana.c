@@ -108,7 +108,7 @@ static trl_result draw(struct santana *s, const trl_rayleigh_desc *options, stru
 
 static double size_of(const float rgb[3])
 {
-    return sqrt((double)rgb[0] * rgb[0] + (double)rgb[1] * rgb[1] + (double)rgb[2] * rgb[2]);
+    return hypot(hypot((double)rgb[0], (double)rgb[1]), (double)rgb[2]);
 }
 
 // Below this many cd/m2 a pixel is taken for black. Not a share of the brightest: that is the

@@ -419,7 +419,7 @@ static double search_choices(const struct band_fit *fit, const struct band_fit *
     if (is_good && added_sums.spectra > 0) {
         derive_bands(added, &added_sums, out->lane, added_out);
     }
-    return is_good ? best : INFINITY;
+    return is_good ? best : HUGE_VAL;
 }
 
 void band_fit_choose_both(const struct band_fit *fit, const struct band_fit *added,

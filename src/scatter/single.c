@@ -162,7 +162,7 @@ static void gather(const struct single_tables *t, const struct table_ray *at, in
     const struct ray_desc desc = {.radius_m = at->radius_m,
                                   .mu = at->mu,
                                   .nodes_per_shell = NODES_PER_SHELL + MORE_NODES_PER_DEPTH * depth,
-                                  .end_m = at->meets_ground ? at->way_m : INFINITY};
+                                  .end_m = at->meets_ground ? at->way_m : HUGE_VAL};
     ray_init(&w->ray, optics, t->rules, &desc);
     struct transport_channels channels = {.phase = {NULL}};
     memcpy(channels.channel, t->channel, sizeof channels.channel);
