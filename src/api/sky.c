@@ -109,7 +109,8 @@ static trl_result solve_and_answer(const trl_context *ctx, const struct medium *
         if (result != TRL_OK) {
             break;
         }
-        optics_init(optics, medium, nm + first, left < LANES ? (int)left : LANES);
+        optics_init_for(desc->max_orders > 0 ? OPTICS_WHOLE : OPTICS_NUMBERS, medium, nm + first,
+                        left < LANES ? (int)left : LANES, optics);
         struct solver_settings settings = solver_settings_choose(optics, SOLVER_PRECISE);
         settings.orders = desc->model == TRL_SKY_SINGLE ? 1 : (int)desc->max_orders;
         struct solution solution;

@@ -42,7 +42,7 @@ static void choose_wavelengths(struct atmosphere *a, uint32_t wavelengths)
 {
     static const double rgb_nm[] = {440, 550, 680};
     if (wavelengths == ATMOSPHERE_RGB) {
-        optics_init(a->optics, &a->medium, rgb_nm, 3);
+        optics_init_for(OPTICS_PICTURES, &a->medium, rgb_nm, 3, a->optics);
     } else {
         optics_init_visible(a->optics, &a->medium, (int)wavelengths);
     }

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { FORMAT_VERSION = 5, SAMPLES = 256, PIECES = 6, FILES_KEPT = 9 };
+enum { FORMAT_VERSION = 6, SAMPLES = 256, PIECES = 6, FILES_KEPT = 9 };
 
 // FNV-1a over words of eight bytes; a last short word is filled with zeros. Not for enemies: it
 // finds accidents.
@@ -107,7 +107,7 @@ static size_t list_pieces(const struct atmosphere *a, struct piece pieces[PIECES
     pieces[0] = (struct piece){(void *)&a->bands, sizeof a->bands};
     pieces[1] = (struct piece){m->radiance, points * sizeof(lanes)};
     pieces[2] = (struct piece){m->irradiance, (size_t)m->suns * sizeof(lanes)};
-    pieces[3] = (struct piece){sun->transmittance,
+    pieces[3] = (struct piece){sun->log_transmittance,
                                (size_t)sun->levels * (size_t)sun->columns * sizeof(lanes)};
     pieces[4] = (struct piece){sun->ground_irradiance, (size_t)sun->columns * sizeof(lanes)};
     pieces[5] = (struct piece){a->table.texels, table_texels(&a->table) * sizeof(float)};

@@ -58,6 +58,38 @@ double profile_density(const struct profile *profile, double altitude_m)
     return 0;
 }
 
+size_t profile_kink_count(const struct profile *profile)
+{
+    switch (profile->kind) {
+    case PROFILE_TENT:
+        return 3;
+    case PROFILE_TABLE:
+        return profile->count;
+    case PROFILE_UNIFORM:
+    case PROFILE_EXPONENTIAL:
+        break;
+    }
+    return 0;
+}
+
+// Of a table between two knots; 0 outside.
+static double slope_before(const struct profile *p, size_t knot)
+{
+    return knot > 0 && knot < p->count ? (p->density[knot] - p->density[knot - 1]) /
+                                             (p->altitude_m[knot] - p->altitude_m[knot - 1])
+                                       : 0;
+}
+
+double profile_kink_m(const struct profile *profile, size_t index, double *change)
+{
+    if (profile->kind == PROFILE_TENT) {
+        *change = (index == 1 ? -2 : 1) / profile->half_width_m;
+        return profile->centre_m + ((double)index - 1) * profile->half_width_m;
+    }
+    *change = slope_before(profile, index + 1) - slope_before(profile, index);
+    return profile->altitude_m[index];
+}
+
 double profile_column_m(const struct profile *profile, double height_m)
 {
     double sum = 0;

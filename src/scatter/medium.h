@@ -32,6 +32,11 @@ struct profile {
 
 double profile_density(const struct profile *profile, double altitude_m);
 
+// Where its slope jumps, in ascending altitude: knots of tables, ends and middles of tents.
+size_t profile_kink_count(const struct profile *profile);
+// `change`: of the slope, per m.
+double profile_kink_m(const struct profile *profile, size_t index, double *change);
+
 // Its integral from the ground to a height, in m: optical depth per coefficient.
 double profile_column_m(const struct profile *profile, double height_m);
 

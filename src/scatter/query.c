@@ -2,18 +2,22 @@
 // SPDX-License-Identifier: MIT
 #include "scatter/query.h"
 
+#include "scatter/aureole.h"
+
 #include <math.h>
 
 enum { SHADOW_SAMPLES = 96, BISECTIONS = 40 };
 
 static const double NODES_PER_SHELL = 96;
-static const double MORE_NODES_PER_DEPTH = 64; // of vertical optical depth, up to MAX_DEPTH of it
-static const double MAX_DEPTH = 8;
+static const double DEPTH_PER_RULE = 2; // of sixteen nodes
+static const double LEAST_TRANSMITTANCE = 1e-7;
 
 struct query {
     const struct solution *solution;
     struct ray ray;
+    struct ray toward_star; // from where most of the first order is scattered
     struct transport_scratch *scratch;
+    struct aureole aureole;
 };
 
 struct query_view query_view_make(double radius_m, double sun_zenith_rad, double view_zenith_rad,
@@ -33,8 +37,10 @@ trl_result query_create(const trl_context *ctx, const struct solution *solution,
         return TRL_ERROR_MEMORY;
     }
     (*out)->solution = solution;
-    const trl_result result =
-        transport_scratch_create(ctx, 1, solution->moments.suns, &(*out)->scratch);
+    trl_result result = transport_scratch_create(ctx, 1, solution->moments.suns, &(*out)->scratch);
+    if (result == TRL_OK) {
+        result = aureole_init(ctx, solution->optics, solution->sun.disc_rad, &(*out)->aureole);
+    }
     if (result != TRL_OK) {
         query_destroy(ctx, out);
     }
@@ -45,6 +51,7 @@ void query_destroy(const trl_context *ctx, struct query **query)
 {
     if (*query) {
         transport_scratch_destroy(ctx, &(*query)->scratch);
+        aureole_finish(ctx, &(*query)->aureole);
         mem_free(ctx, *query);
         *query = NULL;
     }
@@ -121,6 +128,74 @@ static double disc_phase(const struct phase *phase, double nu, double disc_rad)
     return sum / (RINGS * POINTS);
 }
 
+static double sun_mu_at(const struct query_view *view, const struct ray_node *node)
+{
+    const double mu =
+        (view->radius_m * view->sun_mu + node->distance_m * view->nu) / node->radius_m;
+    return fmin(fmax(mu, -1), 1);
+}
+
+// What of the first order a node scatters in forward peaks, the wavelengths together.
+static double forward_light(const struct query *query, const struct query_view *view,
+                            const struct ray_node *node)
+{
+    const struct solution *s = query->solution;
+    lanes light;
+    sunlight_at(&s->sun, node->radius_m, sun_mu_at(view, node), &light);
+    lanes scattered = {0};
+    for (int i = 0; i < s->optics->constituent_count; i++) {
+        scattered += s->optics->scattering_per_m[i] *
+                     (float)(s->optics->forward_share[i] * node->density[i] * node->weight_m);
+    }
+    light *= scattered * optics_attenuation(s->optics, node->column_m);
+    double sum = 0;
+    for (int k = 0; k < LANES; k++) {
+        sum += (double)light[k];
+    }
+    return sum;
+}
+
+// The node before which half of that light comes from; NULL when there is none.
+static const struct ray_node *find_middle(const struct query *query, const struct query_view *view)
+{
+    const struct ray *ray = &query->ray;
+    double whole = 0;
+    for (int k = 0; k < ray->node_count; k++) {
+        whole += forward_light(query, view, &ray->node[k]);
+    }
+    double sum = 0;
+    for (int k = 0; k < ray->node_count && whole > 0; k++) {
+        sum += forward_light(query, view, &ray->node[k]);
+        if (sum >= 0.5 * whole) {
+            return &ray->node[k];
+        }
+    }
+    return NULL;
+}
+
+// Columns of the way of light that is scattered forward: from the star to where it meets the line
+// of sight, and on to the eye.
+static bool find_way(struct query *query, const struct query_view *view, double *column_m)
+{
+    const struct solution *s = query->solution;
+    const struct ray_node *node = find_middle(query, view);
+    if (!node) {
+        return false;
+    }
+    // A star whose middle has set still is seen above the horizon.
+    const double sine = s->optics->ground_radius_m / node->radius_m;
+    const double horizon_mu = -sqrt(fmax(0, 1 - sine * sine));
+    const struct ray_desc desc = {.radius_m = node->radius_m,
+                                  .mu = fmin(1, fmax(sun_mu_at(view, node), horizon_mu + 1e-9)),
+                                  .nodes_per_shell = NODES_PER_SHELL,
+                                  .end_m = INFINITY};
+    ray_init(&query->toward_star, s->optics, s->rules, &desc);
+    for (int i = 0; i < s->optics->constituent_count; i++) {
+        column_m[i] = node->column_m[i] + query->toward_star.column_m[i];
+    }
+    return true;
+}
+
 // Single scattering of the view: the light comes as if the star stood at the angle of cosine `nu`
 // from the ray, the phase functions take the view's own angle. Leaves the ray in the query.
 static void add_single(struct query *query, const struct query_view *view, double nu,
@@ -128,14 +203,14 @@ static void add_single(struct query *query, const struct query_view *view, doubl
 {
     const struct solution *s = query->solution;
     const struct optics *optics = s->optics;
-    const double depth = optics_largest_depth(optics);
     struct query_view lit = *view;
     lit.nu = nu;
     struct ray_desc desc = {.radius_m = view->radius_m,
                             .mu = view->view_mu,
-                            .nodes_per_shell =
-                                NODES_PER_SHELL + MORE_NODES_PER_DEPTH * fmin(depth, MAX_DEPTH),
-                            .end_m = INFINITY};
+                            .nodes_per_shell = NODES_PER_SHELL,
+                            .end_m = INFINITY,
+                            .depth_per_rule = DEPTH_PER_RULE,
+                            .least_transmittance = LEAST_TRANSMITTANCE};
     find_shadow_edges(query, &lit, &desc);
     ray_init(&query->ray, optics, s->rules, &desc);
 
@@ -143,15 +218,26 @@ static void add_single(struct query *query, const struct query_view *view, doubl
     const float light_nu = (float)nu;
     const struct transport_family family = {1, &sun_mu, &light_nu};
     struct transport_channels channels;
+    lanes single[MEDIUM_MAX_CONSTITUENTS];
+    lanes *out[MEDIUM_MAX_CONSTITUENTS];
+    for (int i = 0; i < optics->constituent_count; i++) {
+        channels.channel[i] = i;
+        channels.phase[i] = NULL;
+        single[i] = lanes_set(0);
+        out[i] = &single[i];
+    }
+    transport_add_single(&s->sun, &query->ray, &family, &channels, out, query->scratch);
     float phase[MEDIUM_MAX_CONSTITUENTS];
     for (int i = 0; i < optics->constituent_count; i++) {
-        channels.channel[i] = 0;
         phase[i] =
             (float)disc_phase(&optics->medium->constituents[i].phase, view->nu, s->sun.disc_rad);
-        channels.phase[i] = &phase[i];
+        *radiance += single[i] * phase[i];
     }
-    lanes *const out[1] = {radiance};
-    transport_add_single(&s->sun, &query->ray, &family, &channels, out, query->scratch);
+    // Without a forward peak there is nothing to add: so it is where single orders are asked for.
+    double column_m[MEDIUM_MAX_CONSTITUENTS];
+    if (aureole_reaches(&query->aureole, view->nu) && find_way(query, &lit, column_m)) {
+        aureole_add(&query->aureole, view->nu, single, phase, column_m, radiance);
+    }
 }
 
 void query_radiance(struct query *query, const struct query_view *view, lanes *radiance)

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEG_MIN_NODES = 4 };
+enum { LEG_MIN_NODES = 4, MAX_CUTS = 12, CUT_MIN_NODES = 5 };
 
 void ray_rules_init(struct ray_rules *rules)
 {
@@ -125,30 +125,116 @@ static void finish_rule(struct ray *ray, const struct optics *optics, const stru
     ray->node_count += count;
 }
 
-// One Gauss rule over t in [from, to]; from > to on a falling leg, which the ray follows downward.
-static void add_rule(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
-                     const struct leg *leg, double from, double to, int count)
+// What the pieces of a leg have in common.
+struct march {
+    struct ray *ray;
+    const struct optics *optics;
+    const struct ray_rules *rules;
+    const struct ray_desc *desc;
+    const struct leg *leg;
+};
+
+// Is the last rule too long at a wavelength at which its light arrives?
+static bool is_too_deep(const struct march *m, const lanes *before)
 {
-    if (ray->node_count + count > RAY_MAX_NODES) {
-        count = RAY_MAX_NODES - ray->node_count;
+    if (m->desc->depth_per_rule <= 0) {
+        return false;
     }
-    if (count < 1) {
-        return;
+    const lanes after = optics_depth(m->optics, m->ray->column_m);
+    for (int k = 0; k < m->optics->wavelength_count; k++) {
+        const double depth = (double)(after[k] - (*before)[k]);
+        // What is dim may be rough: e^-7 is a thousandth.
+        if (depth > m->desc->depth_per_rule * (1 + 0.5 * (double)(*before)[k])) {
+            return true;
+        }
     }
-    for (int k = 0; k < count; k++) {
-        struct ray_node *node = &ray->node[ray->node_count + k];
-        place_node(node, ray, optics, leg, from + (to - from) * rules->rule[count].node[k]);
-        node->weight_m *= fabs(to - from);
-    }
-    finish_rule(ray, optics, rules, count);
+    return false;
 }
 
-static double leg_parameter(const struct ray *ray, const struct optics *optics,
-                            const struct leg *leg, double distance_m)
+static bool is_dark(const struct march *m, const lanes *depth)
+{
+    if (m->desc->least_transmittance <= 0) {
+        return false;
+    }
+    const double deepest = -log(m->desc->least_transmittance);
+    for (int k = 0; k < m->optics->wavelength_count; k++) {
+        if ((double)(*depth)[k] < deepest) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// One Gauss rule over t in [from, to]; from > to on a falling leg, which the ray follows downward.
+static void place_rule(const struct march *m, double from, double to, int count)
+{
+    struct ray *ray = m->ray;
+    for (int k = 0; k < count; k++) {
+        struct ray_node *node = &ray->node[ray->node_count + k];
+        place_node(node, ray, m->optics, m->leg,
+                   from + (to - from) * m->rules->rule[count].node[k]);
+        node->weight_m *= fabs(to - from);
+    }
+    finish_rule(ray, m->optics, m->rules, count);
+}
+
+// A rule that would reach too deep is cut in two, and those again.
+static void add_rule(const struct march *m, double from, double to, int nodes, int cuts)
+{
+    struct ray *ray = m->ray;
+    const lanes before = optics_depth(m->optics, ray->column_m);
+    ray->is_dark = ray->is_dark || is_dark(m, &before);
+    const int left = RAY_MAX_NODES - ray->node_count;
+    const int count = nodes < left ? nodes : left;
+    if (ray->is_dark || count < 1) {
+        return;
+    }
+    double column_m[MEDIUM_MAX_CONSTITUENTS];
+    memcpy(column_m, ray->column_m, sizeof column_m);
+    place_rule(m, from, to, count);
+    if (cuts > 0 && is_too_deep(m, &before)) {
+        memcpy(ray->column_m, column_m, sizeof column_m);
+        ray->node_count -= count;
+        const double middle = 0.5 * (from + to);
+        const int half = nodes > 2 * CUT_MIN_NODES ? (nodes + 1) / 2 : CUT_MIN_NODES;
+        add_rule(m, from, middle, half, cuts - 1);
+        add_rule(m, middle, to, half, cuts - 1);
+    }
+}
+
+static double leg_parameter(const struct leg *leg, double shell)
 {
     const double span = leg->high_shell - leg->low_shell;
-    const double shell = optics_shell(optics, altitude_at(ray, optics, distance_m));
     return span > 0 ? sqrt(fmin(fmax((shell - leg->low_shell) / span, 0), 1)) : 0;
+}
+
+// Parameters of the kinks, in the order in which the ray meets them; the leg's end is the last.
+static int list_stops(const struct ray *ray, const struct optics *optics,
+                      const struct ray_desc *desc, const struct leg *leg, double *stop)
+{
+    const double end = leg->is_rising ? 1 : 0;
+    int count = 0;
+    for (int b = 0; b < desc->break_count; b++) {
+        if (desc->break_m[b] > leg->from_m && desc->break_m[b] < leg->to_m) {
+            const double altitude_m = altitude_at(ray, optics, desc->break_m[b]);
+            stop[count++] = leg_parameter(leg, optics_shell(optics, altitude_m));
+        }
+    }
+    for (int k = 0; k < optics->kink_count; k++) {
+        if (optics->kink_shell[k] > leg->low_shell && optics->kink_shell[k] < leg->high_shell) {
+            stop[count++] = leg_parameter(leg, optics->kink_shell[k]);
+        }
+    }
+    for (int n = 1; n < count; n++) {
+        const double moved = stop[n];
+        int at = n;
+        for (; at > 0 && (leg->is_rising ? stop[at - 1] > moved : stop[at - 1] < moved); at--) {
+            stop[at] = stop[at - 1];
+        }
+        stop[at] = moved;
+    }
+    stop[count++] = end;
+    return count;
 }
 
 // Follows the leg from kink to kink, with as many nodes as the shells that each piece crosses ask
@@ -156,14 +242,12 @@ static double leg_parameter(const struct ray *ray, const struct optics *optics,
 static void add_leg(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
                     const struct ray_desc *desc, const struct leg *leg)
 {
+    double stop[RAY_MAX_BREAKS + OPTICS_KINKS + 1];
+    const int stops = list_stops(ray, optics, desc, leg, stop);
+    const struct march march = {ray, optics, rules, desc, leg};
     double at = leg->is_rising ? 0 : 1;
-    for (int b = 0; b <= desc->break_count; b++) {
-        const bool is_last = b == desc->break_count;
-        if (!is_last && (desc->break_m[b] <= leg->from_m || desc->break_m[b] >= leg->to_m)) {
-            continue;
-        }
-        const double to =
-            is_last ? (leg->is_rising ? 1 : 0) : leg_parameter(ray, optics, leg, desc->break_m[b]);
+    for (int n = 0; n < stops; n++) {
+        const double to = stop[n];
         const double span = (leg->high_shell - leg->low_shell) * fabs(to * to - at * at);
         // A short way through few shells can still be long in t, so half of the nodes go by t.
         const double wanted =
@@ -171,28 +255,16 @@ static void add_leg(struct ray *ray, const struct optics *optics, const struct r
         const int count = LEG_MIN_NODES + (int)fmin(ceil(wanted), RAY_MAX_NODES);
         const int pieces = (count + RAY_RULE_NODES - 1) / RAY_RULE_NODES;
         for (int p = 0; p < pieces && to != at; p++) {
-            add_rule(ray, optics, rules, leg, at + (to - at) * p / pieces,
-                     at + (to - at) * (p + 1) / pieces, (count + pieces - 1) / pieces);
+            add_rule(&march, at + (to - at) * p / pieces, at + (to - at) * (p + 1) / pieces,
+                     (count + pieces - 1) / pieces, MAX_CUTS);
         }
         at = to;
     }
 }
 
-void ray_init(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
-              const struct ray_desc *desc)
+static void add_legs(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
+                     const struct ray_desc *desc)
 {
-    ray->eye_radius_m = desc->radius_m;
-    ray->eye_mu = desc->mu;
-    ray->first_node = ray->node_count = 0;
-    memset(ray->column_m, 0, sizeof ray->column_m);
-    if (!ray_clip(optics, desc->radius_m, desc->mu, &ray->begin_m, &ray->end_m,
-                  &ray->hits_ground)) {
-        return;
-    }
-    if (desc->end_m < ray->end_m) {
-        ray->end_m = fmax(ray->begin_m, desc->end_m);
-        ray->hits_ground = false;
-    }
     const double closest_m = -desc->radius_m * desc->mu;
     if (closest_m <= ray->begin_m || closest_m >= ray->end_m) {
         const struct leg leg = make_leg(ray, optics, ray->begin_m, ray->end_m);
@@ -205,6 +277,26 @@ void ray_init(struct ray *ray, const struct optics *optics, const struct ray_rul
     add_leg(ray, optics, rules, desc, &rising);
 }
 
+void ray_init(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
+              const struct ray_desc *desc)
+{
+    ray->eye_radius_m = desc->radius_m;
+    ray->eye_mu = desc->mu;
+    ray->first_node = ray->node_count = 0;
+    ray->is_dark = false;
+    memset(ray->column_m, 0, sizeof ray->column_m);
+    if (!ray_clip(optics, desc->radius_m, desc->mu, &ray->begin_m, &ray->end_m,
+                  &ray->hits_ground)) {
+        return;
+    }
+    if (desc->end_m < ray->end_m) {
+        ray->end_m = fmax(ray->begin_m, desc->end_m);
+        ray->hits_ground = false;
+    }
+    add_legs(ray, optics, rules, desc);
+    ray->hits_ground = ray->hits_ground && !ray->is_dark;
+}
+
 void ray_init_cells(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
                     const struct ray_desc *desc, const double *bound_m, int count, int per_cell)
 {
@@ -212,7 +304,7 @@ void ray_init_cells(struct ray *ray, const struct optics *optics, const struct r
     ray->eye_mu = desc->mu;
     ray->begin_m = bound_m[0];
     ray->end_m = bound_m[count];
-    ray->hits_ground = false;
+    ray->hits_ground = ray->is_dark = false;
     ray->first_node = ray->node_count = 0;
     memset(ray->column_m, 0, sizeof ray->column_m);
     const double pass_m = desc->radius_m * sqrt(fmax(0, 1 - desc->mu * desc->mu));

@@ -37,7 +37,12 @@ struct ray_desc {
     double nodes_per_shell; // nodes on a way through the whole shell coordinate; at least 4 are
                             // used on any leg
     double end_m;           // the ray ends here at the latest; INFINITY: at the ground or the top
-    int break_count;        // distances where the integrand has a kink: no rule reaches across
+    // In dense matter nodes go by optical depth: no rule reaches across more than this (0: any) as
+    // long as something of its light arrives, and the ray ends where less than this part of the
+    // light at any wavelength would arrive (0: never), as if nothing were behind.
+    double depth_per_rule;
+    double least_transmittance;
+    int break_count; // distances where the integrand has a kink: no rule reaches across
     double break_m[RAY_MAX_BREAKS];
 };
 
@@ -45,6 +50,7 @@ struct ray {
     double eye_radius_m, eye_mu;
     double begin_m, end_m; // of the part inside the medium; equal when there is none
     bool hits_ground;      // at end_m
+    bool is_dark;          // ended early by least_transmittance
     double column_m[MEDIUM_MAX_CONSTITUENTS]; // of the whole part
     int first_node;                           // integrations take nodes [first_node, node_count)
     int node_count;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #ifndef SCATTER_SOLVER_H
 #define SCATTER_SOLVER_H
-// The source-moment method: all orders of scattering, order by order, on the grids of struct
-// moments.
+// The source-moment method on the grids of struct moments: all orders of scattering at once, or
+// some one by one.
 
 #include "scatter/transport.h"
 
@@ -21,8 +21,9 @@ struct solver_settings {
     double nodes_per_shell;
     double first_nodes_per_shell; // of the first order, which has the kink of the planet's shadow
     int orders;                   // exactly these, and no tail; 0: until the tolerance is met
-    int max_orders;               // then the tail is closed as it stands
-    double tolerance;             // the orders left out, relative to the sum
+    int plane_degree;             // of the preconditioner (plane.h); -1: none
+    int max_orders;               // steps of the iteration at most
+    double tolerance;             // what is left of the iteration's residual
 };
 
 // Grids by the medium's optical depth and the sharpness of its phase functions.
@@ -34,15 +35,20 @@ struct solution {
     struct ray_rules *rules;
     struct sunlight sun;
     struct moments moments; // of the radiance of all orders, light of the ground included
-    int orders; // orders of scattering that were computed; the tail is a geometric series
+    int orders;             // orders of scattering, or steps of the iteration over all of them
 };
 
 // Vertical optical depth above which a medium is refused: orders of scattering grow with its
 // square.
-#define SOLVER_MAX_DEPTH 200.0
+#define SOLVER_MAX_DEPTH 1000.0
+
+// Moments of backward peaks above this are refused: without them light that turns back twice would
+// be some 10 % off.
+#define SOLVER_MAX_BACKWARD_PEAK 0.4
 
 // Solves at the wavelengths of `optics`, which must outlive the solution.
-// TRL_ERROR_INVALID (too dense), TRL_ERROR_MEMORY, TRL_ERROR_CANCELLED.
+// TRL_ERROR_INVALID (too dense, or a backward peak too sharp), TRL_ERROR_MEMORY,
+// TRL_ERROR_CANCELLED.
 TRL_MUST_USE trl_result solution_init(const trl_context *ctx, const struct optics *optics,
                                       const struct solver_settings *settings, struct solution *out);
 // The same without solving: arrays of zeros, for a cache to fill.

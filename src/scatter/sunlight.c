@@ -4,8 +4,13 @@
 
 #include <math.h>
 
-enum { LEVELS = 96, COLUMNS = 256, DISC_NODES = 12, NODES_PER_SHELL = 40 };
+enum { COLUMNS = 256, DISC_NODES = 12, NODES_PER_SHELL = 40 };
 
+// Light grazes the edges of dense layers within few metres: the levels grow as the logarithm of the
+// depth.
+static const double LEVELS = 96;
+static const double DENSE_LEVELS = 60;
+static const double MOST_LEVELS = 256;
 static const double POINT_DISC_RAD = 1e-4; // stands for a star without extent
 
 struct sunlight_row sunlight_row_at(double ground_radius_m, double radius_m, double disc_rad)
@@ -29,6 +34,7 @@ static double row_mu(struct sunlight_row row, double coordinate)
 // constituent.
 struct columns {
     const struct optics *optics;
+    int levels;
     double *length_m;
 };
 
@@ -37,16 +43,23 @@ static double *columns_at(const struct columns *columns, int level, int column)
     return columns->length_m + ((size_t)level * COLUMNS + (size_t)column) * MEDIUM_MAX_CONSTITUENTS;
 }
 
-static double level_radius(const struct optics *optics, int level)
+static int choose_levels(const struct optics *optics)
 {
-    return optics->ground_radius_m + optics_altitude(optics, (double)level / (LEVELS - 1));
+    const double dense = DENSE_LEVELS * log(fmax(optics_largest_depth(optics), 1));
+    return (int)fmin(LEVELS + dense, MOST_LEVELS);
+}
+
+static double level_radius(const struct columns *columns, int level)
+{
+    const double shell = (double)level / (columns->levels - 1);
+    return columns->optics->ground_radius_m + optics_altitude(columns->optics, shell);
 }
 
 static void fill_column_level(const struct columns *columns, const struct ray_rules *rules,
                               struct ray *ray, int level)
 {
     const struct optics *optics = columns->optics;
-    const double radius_m = level_radius(optics, level);
+    const double radius_m = level_radius(columns, level);
     const struct sunlight_row row = sunlight_row_at(optics->ground_radius_m, radius_m, 0);
     for (int c = 0; c < COLUMNS; c++) {
         // A hair above the horizon, lest rounding makes the lowest ray hit the ground.
@@ -82,7 +95,7 @@ static void average_disc(const struct columns *columns, const struct gauss *rule
                          double disc_rad, double mu, lanes *transmittance, lanes *irradiance)
 {
     const struct optics *optics = columns->optics;
-    const double radius_m = level_radius(optics, level);
+    const double radius_m = level_radius(columns, level);
     const struct sunlight_row row = sunlight_row_at(optics->ground_radius_m, radius_m, 0);
     const double zenith_rad = acos(fmin(fmax(mu, -1), 1));
     const double horizon_rad = acos(row.lowest_mu);
@@ -100,15 +113,26 @@ static void average_disc(const struct columns *columns, const struct gauss *rule
     }
 }
 
+static lanes logarithm(lanes transmittance)
+{
+    lanes v;
+    for (int k = 0; k < LANES; k++) {
+        v[k] = transmittance[k] > 0 ? fmaxf(logf(transmittance[k]), SUNLIGHT_DARK) : SUNLIGHT_DARK;
+    }
+    return v;
+}
+
 static void fill_level(struct sunlight *sun, const struct columns *columns,
                        const struct gauss *rule, int level)
 {
-    const struct sunlight_row row = sunlight_row_at(
-        sun->optics->ground_radius_m, level_radius(sun->optics, level), sun->disc_rad);
+    const struct sunlight_row row =
+        sunlight_row_at(sun->optics->ground_radius_m, level_radius(columns, level), sun->disc_rad);
     for (int c = 0; c < COLUMNS; c++) {
+        lanes transmittance;
         lanes irradiance;
         average_disc(columns, rule, level, sun->disc_rad, row_mu(row, (double)c / (COLUMNS - 1)),
-                     &sun->transmittance[level * COLUMNS + c], &irradiance);
+                     &transmittance, &irradiance);
+        sun->log_transmittance[level * COLUMNS + c] = logarithm(transmittance);
         if (level == 0) {
             sun->ground_irradiance[c] = irradiance;
         }
@@ -122,7 +146,7 @@ static void fill_table(struct sunlight *sun, const struct columns *columns,
     gauss_init(&rule, DISC_NODES);
     (void)scratch_count; // without OpenMP there is one
 #pragma omp parallel for schedule(dynamic) num_threads(scratch_count)
-    for (int level = 0; level < LEVELS; level++) {
+    for (int level = 0; level < sun->levels; level++) {
         const unsigned state = lanes_flush_denormals();
         fill_column_level(columns, rules, &scratch[lanes_thread()], level);
         fill_level(sun, columns, &rule, level);
@@ -133,11 +157,11 @@ static void fill_table(struct sunlight *sun, const struct columns *columns,
 trl_result sunlight_reserve(const trl_context *ctx, const struct optics *optics,
                             struct sunlight *out)
 {
-    *out = (struct sunlight){.optics = optics, .levels = LEVELS, .columns = COLUMNS};
+    *out = (struct sunlight){.optics = optics, .levels = choose_levels(optics), .columns = COLUMNS};
     out->disc_rad = fmax(optics->medium->star_angular_radius_rad, POINT_DISC_RAD);
-    out->transmittance = mem_alloc(ctx, (size_t)LEVELS * COLUMNS, sizeof(lanes));
+    out->log_transmittance = mem_alloc(ctx, (size_t)out->levels * COLUMNS, sizeof(lanes));
     out->ground_irradiance = mem_alloc(ctx, COLUMNS, sizeof(lanes));
-    if (!out->transmittance || !out->ground_irradiance) {
+    if (!out->log_transmittance || !out->ground_irradiance) {
         sunlight_finish(ctx, out);
         return TRL_ERROR_MEMORY;
     }
@@ -149,8 +173,8 @@ trl_result sunlight_fill(const trl_context *ctx, const struct ray_rules *rules,
 {
     const int threads = lanes_max_threads();
     struct columns columns = {
-        sun->optics,
-        mem_alloc(ctx, (size_t)LEVELS * COLUMNS * MEDIUM_MAX_CONSTITUENTS, sizeof(double))};
+        sun->optics, sun->levels,
+        mem_alloc(ctx, (size_t)sun->levels * COLUMNS * MEDIUM_MAX_CONSTITUENTS, sizeof(double))};
     struct ray *scratch = mem_alloc(ctx, (size_t)threads, sizeof *scratch);
     const bool has_memory = columns.length_m && scratch;
     if (has_memory) {
@@ -163,37 +187,44 @@ trl_result sunlight_fill(const trl_context *ctx, const struct ray_rules *rules,
 
 void sunlight_finish(const trl_context *ctx, struct sunlight *sun)
 {
-    mem_free(ctx, sun->transmittance);
+    mem_free(ctx, sun->log_transmittance);
     mem_free(ctx, sun->ground_irradiance);
     *sun = (struct sunlight){0};
 }
 
-static lanes interpolate(const lanes *row, double coordinate)
+struct cell {
+    int index;
+    float part;
+};
+
+static struct cell find_cell(double coordinate, int count)
 {
-    const double position = fmin(coordinate, 1) * (COLUMNS - 1);
-    const int below = position < COLUMNS - 2 ? (int)position : COLUMNS - 2;
-    const float part = (float)(position - below);
-    return row[below] + (row[below + 1] - row[below]) * part;
+    const double position = fmin(coordinate, 1) * (count - 1);
+    const int index = position < count - 2 ? (int)position : count - 2;
+    return (struct cell){index, (float)(position - index)};
 }
 
+// Straight between columns, by logarithms between levels, as transport.c does.
 void sunlight_at(const struct sunlight *sun, double radius_m, double mu, lanes *transmittance)
 {
     const struct optics *optics = sun->optics;
     const struct sunlight_row row =
         sunlight_row_at(optics->ground_radius_m, radius_m, sun->disc_rad);
-    const double coordinate = row_coordinate(row, mu);
-    const double position = optics_shell(optics, radius_m - optics->ground_radius_m) * (LEVELS - 1);
-    const int level = position < LEVELS - 2 ? (int)position : LEVELS - 2;
-    const float part = (float)(position - level);
-    const lanes below = interpolate(sun->transmittance + (size_t)level * COLUMNS, coordinate);
-    const lanes above = interpolate(sun->transmittance + (size_t)(level + 1) * COLUMNS, coordinate);
-    *transmittance = below + (above - below) * part;
+    const struct cell column = find_cell(row_coordinate(row, mu), COLUMNS);
+    const struct cell level =
+        find_cell(optics_shell(optics, radius_m - optics->ground_radius_m), sun->levels);
+    const lanes *below = sun->log_transmittance + (size_t)level.index * COLUMNS + column.index;
+    const lanes *above = below + COLUMNS;
+    const lanes left = lanes_exp_negative(below[0] + (above[0] - below[0]) * level.part);
+    const lanes right = lanes_exp_negative(below[1] + (above[1] - below[1]) * level.part);
+    *transmittance = left + (right - left) * column.part;
 }
 
 void sunlight_ground_at(const struct sunlight *sun, double mu, lanes *irradiance)
 {
     const double radius_m = sun->optics->ground_radius_m;
-    *irradiance =
-        interpolate(sun->ground_irradiance,
-                    row_coordinate(sunlight_row_at(radius_m, radius_m, sun->disc_rad), mu));
+    const struct sunlight_row row = sunlight_row_at(radius_m, radius_m, sun->disc_rad);
+    const struct cell column = find_cell(row_coordinate(row, mu), COLUMNS);
+    const lanes *at = sun->ground_irradiance + column.index;
+    *irradiance = at[0] + (at[1] - at[0]) * column.part;
 }

@@ -12,8 +12,11 @@
 struct sunlight {
     const struct optics *optics;
     int levels, columns;
-    double disc_rad;          // angular radius of the star, > 0 (a tiny one stands for a point)
-    lanes *transmittance;     // [levels][columns], relative to the unattenuated irradiance
+    double disc_rad; // angular radius of the star, > 0 (a tiny one stands for a point)
+    // [levels][columns]: logarithm of the transmittance, at least SUNLIGHT_DARK. Between levels it
+    // is optical depths that are about linear: rays that graze dense matter go from clear to dark
+    // within a part of a level.
+    lanes *log_transmittance;
     lanes *ground_irradiance; // [columns]: on level ground at the reference radius, per unit
                               // irradiance
 };
@@ -30,6 +33,7 @@ void sunlight_finish(const trl_context *ctx, struct sunlight *sun);
 // disc's upper edge touches the horizon: x = log(1 + (mu - lowest) / SUNLIGHT_SOFT) * scale, in [0,
 // 1].
 #define SUNLIGHT_SOFT 0.01
+#define SUNLIGHT_DARK (-80.0f)
 
 struct sunlight_row {
     double lowest_mu; // nothing of the disc is seen below

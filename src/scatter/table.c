@@ -9,12 +9,20 @@
 #include <string.h>
 
 static const double NODES_PER_SHELL = 12;
-static const double MORE_NODES_PER_DEPTH = 12;
+static const double DEPTH_PER_RULE = 2.5; // optical
+static const double LEAST_TRANSMITTANCE = 1e-5;
 // Single scattering has a kink where the ray crosses the edge of the planet's shadow, elsewhere for
 // each sun: only more nodes help. This many leave less than 1 % in twilight.
 static const double SHADOW_NODES_PER_SHELL = 96;
 // A phase function whose third moment is above this has a peak that eight azimuths would blur.
 static const double PEAKED_MOMENT = 0.05;
+
+static bool is_peaked(const struct phase *phase)
+{
+    double moment[4];
+    phase_moments(phase, 3, moment);
+    return fabs(moment[3]) > PEAKED_MOMENT;
+}
 
 struct peaked peaked_choose(const struct optics *optics)
 {
@@ -24,7 +32,7 @@ struct peaked peaked_choose(const struct optics *optics)
         int best = -1;
         for (int i = 0; i < optics->constituent_count; i++) {
             const double depth = optics->vertical_scattering_depth[i];
-            if (!is_taken[i] && depth > 0 && fabs(optics->moment[i][3]) > PEAKED_MOMENT &&
+            if (!is_taken[i] && depth > 0 && is_peaked(&optics->medium->constituents[i].phase) &&
                 (best < 0 || depth > optics->vertical_scattering_depth[best])) {
                 best = i;
             }
@@ -199,12 +207,12 @@ static struct transport_family gather(const struct table *table, const struct so
                                       struct table_worker *w)
 {
     const struct optics *optics = solution->optics;
-    const double depth = optics_largest_depth(optics);
-    const double nodes = NODES_PER_SHELL + MORE_NODES_PER_DEPTH * fmin(depth, 8);
     struct ray_desc desc = {.radius_m = radius_m,
                             .mu = mu,
-                            .nodes_per_shell = fmax(nodes, SHADOW_NODES_PER_SHELL),
-                            .end_m = INFINITY};
+                            .nodes_per_shell = SHADOW_NODES_PER_SHELL,
+                            .end_m = INFINITY,
+                            .depth_per_rule = DEPTH_PER_RULE,
+                            .least_transmittance = LEAST_TRANSMITTANCE};
     const struct transport_family family = fill_family(table, mu, w);
     for (int c = 0; c <= peaked->count; c++) {
         memset(w->radiance[c], 0, (size_t)family.count * sizeof(lanes));
@@ -212,7 +220,7 @@ static struct transport_family gather(const struct table *table, const struct so
     const struct transport_channels channels = peaked_channels(peaked, optics, &family, w->phase);
     ray_init(&w->ray, optics, solution->rules, &desc);
     transport_add_single(&solution->sun, &w->ray, &family, &channels, w->radiance, w->scratch);
-    desc.nodes_per_shell = nodes;
+    desc.nodes_per_shell = NODES_PER_SHELL;
     ray_init(&w->ray, optics, solution->rules, &desc);
     transport_add_multiple(&solution->moments, &w->ray, &family, w->radiance[0], w->scratch);
     return family;

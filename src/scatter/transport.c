@@ -10,6 +10,7 @@ enum { SUN_COLUMNS = 256 };
 struct transport_scratch {
     int max_count;
     float *sun_mu;      // [max_count] at the node
+    float *sun_sine;    // [max_count] at the node
     float *cos_azimuth; // [max_count] of the ray, at the node
     float *part;        // [max_count] interpolation weight
     int *index;         // [max_count] interpolation cell
@@ -27,11 +28,12 @@ trl_result transport_scratch_create(const trl_context *ctx, int max_count, int s
     const size_t row = (size_t)(suns + 2) * (OPTICS_MAX_DEGREE + 1); // a guard row at each end
     s->max_count = max_count;
     s->sun_mu = mem_alloc(ctx, (size_t)max_count, sizeof *s->sun_mu);
+    s->sun_sine = mem_alloc(ctx, (size_t)max_count, sizeof *s->sun_sine);
     s->cos_azimuth = mem_alloc(ctx, (size_t)max_count, sizeof *s->cos_azimuth);
     s->part = mem_alloc(ctx, (size_t)max_count, sizeof *s->part);
     s->index = mem_alloc(ctx, (size_t)max_count, sizeof *s->index);
     s->row = mem_alloc(ctx, row > SUN_COLUMNS ? row : SUN_COLUMNS, sizeof(lanes));
-    if (!s->sun_mu || !s->cos_azimuth || !s->part || !s->index || !s->row) {
+    if (!s->sun_mu || !s->sun_sine || !s->cos_azimuth || !s->part || !s->index || !s->row) {
         transport_scratch_destroy(ctx, out);
         return TRL_ERROR_MEMORY;
     }
@@ -45,6 +47,7 @@ void transport_scratch_destroy(const trl_context *ctx, struct transport_scratch 
         return;
     }
     mem_free(ctx, s->sun_mu);
+    mem_free(ctx, s->sun_sine);
     mem_free(ctx, s->cos_azimuth);
     mem_free(ctx, s->part);
     mem_free(ctx, s->index);
@@ -88,28 +91,27 @@ LANES_INLINE void place_in_sunlight(const struct sunlight *sun, const struct ray
     }
 }
 
-// Sunlight over the whole sun coordinate at one altitude, times the attenuation from the node to
-// the eye.
+// Sunlight over the sun coordinate at one altitude, as far as the family needs it, times the
+// attenuation from the node to the eye.
 LANES_INLINE void fill_sun_row(const struct sunlight *sun, const struct ray_node *node,
-                               const lanes *attenuation, lanes *row)
+                               const lanes *attenuation, int count, struct transport_scratch *s)
 {
+    lanes *row = s->row;
+    int first = SUN_COLUMNS;
+    int last = 0;
+    for (int t = 0; t < count; t++) {
+        first = s->index[t] < first ? s->index[t] : first;
+        last = s->index[t] > last ? s->index[t] : last;
+    }
+    last++; // cells have two ends
     const double position = node->shell * (sun->levels - 1);
     const int level = position < sun->levels - 2 ? (int)position : sun->levels - 2;
     const float part = (float)(position - level);
-    const lanes *below = sun->transmittance + level * SUN_COLUMNS;
+    const lanes *below = sun->log_transmittance + level * SUN_COLUMNS;
     const lanes *above = below + SUN_COLUMNS;
-    for (int c = 0; c < SUN_COLUMNS; c++) {
-        row[c] = (below[c] + (above[c] - below[c]) * part) * *attenuation;
+    for (int c = first; c <= last; c++) {
+        row[c] = lanes_exp_negative(below[c] + (above[c] - below[c]) * part) * *attenuation;
     }
-}
-
-LANES_INLINE lanes attenuation_to_eye(const struct optics *optics, const double *column_m)
-{
-    lanes depth = {0};
-    for (int i = 0; i < optics->constituent_count; i++) {
-        depth += optics->extinction_per_m[i] * (float)column_m[i];
-    }
-    return lanes_exp_negative(-depth);
 }
 
 LANES_CLONES void transport_add_single(const struct sunlight *sun, const struct ray *ray,
@@ -120,9 +122,9 @@ LANES_CLONES void transport_add_single(const struct sunlight *sun, const struct 
     const struct optics *optics = sun->optics;
     for (int k = ray->first_node; k < ray->node_count; k++) {
         const struct ray_node *node = &ray->node[k];
-        const lanes attenuation = attenuation_to_eye(optics, node->column_m);
+        const lanes attenuation = optics_attenuation(optics, node->column_m);
         place_in_sunlight(sun, ray, node, family, s);
-        fill_sun_row(sun, node, &attenuation, s->row);
+        fill_sun_row(sun, node, &attenuation, family->count, s);
         for (int i = 0; i < optics->constituent_count; i++) {
             if (channels->channel[i] < 0 || node->density[i] <= 0) {
                 continue;
@@ -158,6 +160,7 @@ LANES_INLINE void place_in_moments(const struct moments *m, const struct ray *ra
     const float scale = (float)m->sun_scale;
     const float last = (float)m->suns - 1.001f;
     float *restrict part = s->part;
+    float *restrict sine_out = s->sun_sine;
     float *restrict cos_azimuth = s->cos_azimuth;
     int *restrict index = s->index;
 #pragma omp simd
@@ -166,6 +169,7 @@ LANES_INLINE void place_in_moments(const struct moments *m, const struct ray *ra
             sun_mu_at(eye_radius, distance, inverse_radius, family->sun_mu[t], family->nu[t]);
         const float sun_sine = sqrtf(1.0f - sun_mu * sun_mu) + 1e-6f;
         const float cosine = (family->nu[t] - mu * sun_mu) / (sine * sun_sine);
+        sine_out[t] = sun_sine;
         cos_azimuth[t] = cosine < -1.0f ? -1.0f : cosine > 1.0f ? 1.0f : cosine;
         // asinh, odd: the logarithm of a sum without cancellation
         const float z = (sun_mu - centre) * inverse_width;
@@ -191,31 +195,28 @@ LANES_INLINE void fill_source_row(const struct moments *m, const struct ray_node
     harmonic_values(m->lmax, node->mu, harmonic);
     lanes factor[(OPTICS_MAX_DEGREE + 1) * (OPTICS_MAX_DEGREE + 2) / 2];
     for (int l = 0; l < orders; l++) {
-        lanes scattered = {0};
-        for (int i = 0; i < optics->constituent_count; i++) {
-            scattered += optics->scattering_per_m[i] *
-                         (float)(node->density[i] * node->weight_m * optics->moment[i][l] *
-                                 (1 - optics->forward_share[i]));
-        }
+        const lanes scattered = optics_source(optics, node->density, l) * (float)node->weight_m;
         for (int o = 0; o <= l; o++) {
             factor[harmonic_index(l, o)] =
                 scattered * *attenuation * (float)harmonic[harmonic_index(l, o)];
         }
     }
-    const double position = node->shell * (m->levels - 1);
-    const int level = position < m->levels - 2 ? (int)position : m->levels - 2;
-    const float part = (float)(position - level);
-    const lanes *below = m->radiance + (size_t)level * m->suns * harmonics;
-    const lanes *above = below + (size_t)m->suns * harmonics;
+    const struct moments_levels at = moments_levels_at(m, node->shell);
+    const size_t next = (size_t)m->suns * harmonics;
+    const lanes *lowest = m->radiance + (size_t)at.first * next;
     for (int sun = first_sun; sun <= last_sun; sun++) {
-        const lanes *a = below + sun * harmonics;
-        const lanes *b = above + sun * harmonics;
+        const lanes *a = lowest + sun * harmonics;
+        const lanes *b = a + next;
+        const lanes *c = b + next;
+        const lanes *d = c + next;
         lanes *out = row + sun * orders;
         for (int o = 0; o < orders; o++) {
             lanes sum = {0};
             for (int l = o; l < orders; l++) {
                 const int h = harmonic_index(l, o);
-                sum += (a[h] + (b[h] - a[h]) * part) * factor[h];
+                sum += (a[h] * at.weight[0] + b[h] * at.weight[1] + c[h] * at.weight[2] +
+                        d[h] * at.weight[3]) *
+                       factor[h];
             }
             out[o] = sum;
         }
@@ -236,7 +237,8 @@ LANES_INLINE struct cubic cubic_at(float part)
                            1.0f - rest * rest * (2.5f - 1.5f * rest), -0.5f * rest * part * part}};
 }
 
-// Adds the interpolated harmonics times cos(m phi), by Chebyshev's recurrence. Row -1 is there.
+// Adds the interpolated harmonics times cos(m phi), by Chebyshev's recurrence. Row -1 is there. Odd
+// orders are without the sine of the star's zenith angle.
 LANES_INLINE void add_source(const struct transport_scratch *s, int count, int orders,
                              const lanes *row, lanes *restrict radiance)
 {
@@ -250,7 +252,7 @@ LANES_INLINE void add_source(const struct transport_scratch *s, int count, int o
         for (int o = 0; o < orders; o++, at++) {
             sum += (at[0] * c.weight[0] + at[orders] * c.weight[1] + at[2 * orders] * c.weight[2] +
                     at[3 * orders] * c.weight[3]) *
-                   now;
+                   (o % 2 ? now * s->sun_sine[t] : now);
             const float next = twice * now - before;
             before = now;
             now = next;
@@ -259,12 +261,34 @@ LANES_INLINE void add_source(const struct transport_scratch *s, int count, int o
     }
 }
 
-// Rows beyond the ends go on straight.
+// With the star near the zenith odd orders grow as the sine of its zenith angle, which is a root of
+// the grid's coordinate there and no cubic: they are divided by it. In the zenith itself what is
+// left goes on as before it.
+LANES_INLINE void divide_odd_orders(const struct moments *m, int first_sun, int last_sun,
+                                    lanes *row)
+{
+    const int orders = m->lmax + 1;
+    for (int sun = first_sun; sun <= last_sun; sun++) {
+        for (int o = 1; o < orders; o += 2) {
+            row[sun * orders + o] *= m->inverse_sun_sine[sun];
+        }
+    }
+    if (last_sun == m->suns - 1) {
+        for (int o = 1; o < orders; o += 2) {
+            lanes *last = row + last_sun * orders + o;
+            *last = 3.0f * (last[-orders] - last[-2 * orders]) + last[-3 * orders];
+        }
+    }
+}
+
+// Rows beyond the ends go on as parabolas.
 LANES_INLINE void fill_guards(lanes *row, int suns, int orders)
 {
     for (int o = 0; o < orders; o++) {
-        row[o - orders] = 2.0f * row[o] - row[o + orders];
-        row[suns * orders + o] = 2.0f * row[(suns - 1) * orders + o] - row[(suns - 2) * orders + o];
+        lanes *first = row + o;
+        lanes *last = row + (suns - 1) * orders + o;
+        first[-orders] = 3.0f * (first[0] - first[orders]) + first[2 * orders];
+        last[orders] = 3.0f * (last[0] - last[-orders]) + last[-2 * orders];
     }
 }
 
@@ -277,7 +301,7 @@ LANES_CLONES void transport_add_multiple(const struct moments *moments, const st
     lanes *row = s->row + orders;
     for (int k = ray->first_node; k < ray->node_count; k++) {
         const struct ray_node *node = &ray->node[k];
-        const lanes attenuation = attenuation_to_eye(moments->optics, node->column_m);
+        const lanes attenuation = optics_attenuation(moments->optics, node->column_m);
         place_in_moments(moments, ray, node, family, s);
         int first = suns;
         int last = 0;
@@ -285,10 +309,13 @@ LANES_CLONES void transport_add_multiple(const struct moments *moments, const st
             first = s->index[t] < first ? s->index[t] : first;
             last = s->index[t] > last ? s->index[t] : last;
         }
+        // The cubic's neighbours, and what the ends are made of.
         first = first > 0 ? first - 1 : 0;
-        last = last < suns - 2 ? last + 2 : suns - 1;
+        last = last < suns - 3 ? last + 2 : suns - 1;
+        first = last == suns - 1 && first > suns - 4 ? suns - 4 : first;
         fill_source_row(moments, node, &attenuation, first, last, row);
-        if (first < 2 || last > suns - 3) {
+        divide_odd_orders(moments, first, last, row);
+        if (first == 0 || last == suns - 1) {
             fill_guards(row, suns, orders);
         }
         add_source(s, family->count, orders, row, radiance);
@@ -305,7 +332,7 @@ LANES_INLINE lanes irradiance_at(const struct moments *m, double mu)
     const lanes sum = at[index > 0 ? index - 1 : 0] * c.weight[0] + at[index] * c.weight[1] +
                       at[index + 1] * c.weight[2] +
                       at[index + 2 < m->suns ? index + 2 : m->suns - 1] * c.weight[3];
-    return lanes_max(sum, lanes_set(0)); // the cubic may undershoot where night falls
+    return sum;
 }
 
 LANES_CLONES void transport_add_ground(const struct sunlight *sun, const struct moments *moments,
@@ -317,7 +344,7 @@ LANES_CLONES void transport_add_ground(const struct sunlight *sun, const struct 
     }
     const struct optics *optics = sun ? sun->optics : moments->optics;
     const lanes reflected =
-        optics->ground_albedo * attenuation_to_eye(optics, ray->column_m) * (float)(1 / M_PI);
+        optics->ground_albedo * optics_attenuation(optics, ray->column_m) * (float)(1 / M_PI);
     for (int t = 0; t < family->count; t++) {
         const double mu = fmin(1, fmax(-1, (ray->eye_radius_m * (double)family->sun_mu[t] +
                                             ray->end_m * (double)family->nu[t]) /
@@ -328,6 +355,11 @@ LANES_CLONES void transport_add_ground(const struct sunlight *sun, const struct 
         }
         if (moments) {
             irradiance += irradiance_at(moments, mu);
+        }
+        if (sun && moments) {
+            // The cubic may undershoot where night falls. Not within the iteration, whose vectors
+            // have signs.
+            irradiance = lanes_max(irradiance, lanes_set(0));
         }
         radiance[t] += reflected * irradiance;
     }

@@ -20,6 +20,7 @@ struct moments {
     double sun_centre, sun_width; // the sun grid is uniform in asinh((mu - centre) / width)
     double sun_first, sun_scale;  // asinh at the first sun; index = (asinh - first) * scale
     lanes *radiance;              // [levels][suns][harmonic_count(lmax)]
+    float *inverse_sun_sine;      // [suns] of the star's zenith angle; 0 in the zenith and nadir
     lanes *irradiance;            // [suns], of level ground at the reference radius
 };
 
@@ -27,6 +28,18 @@ struct moments {
 TRL_MUST_USE trl_result moments_init(const trl_context *ctx, const struct optics *optics, int lmax,
                                      int levels, int suns, struct moments *out);
 void moments_finish(const trl_context *ctx, struct moments *moments);
+
+// Where a shell coordinate lies between the levels.
+enum { MOMENTS_TAPS = 4 };
+struct moments_levels {
+    int first;
+    float weight[MOMENTS_TAPS]; // of the levels first, first + 1, ...
+};
+struct moments_levels moments_levels_at(const struct moments *moments, double shell);
+
+// y += factor x, on the same grids
+void moments_add(struct moments *y, const struct moments *x, lanes factor);
+
 double moments_sun_mu(const struct moments *moments, int sun);         // of a grid point
 double moments_level_radius(const struct moments *moments, int level); // m
 

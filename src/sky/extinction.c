@@ -39,7 +39,7 @@ static void fill_optics(struct extinction *e, const struct medium *medium)
     for (int k = 0; k < LANES; k++) {
         nm[k] = wavelength_at(k);
     }
-    optics_init(e->optics, medium, nm, LANES);
+    optics_init_for(OPTICS_WHOLE, medium, nm, LANES, e->optics);
 }
 
 trl_result extinction_init(const trl_context *ctx, const struct medium *medium,
