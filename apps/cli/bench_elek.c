@@ -75,7 +75,7 @@ static trl_result add_paper_times(struct bench_table *table)
     }
     bench_note(table, "The paper: 15 wavelengths, air and water, Core 2 Duo 1.86 GHz; it prints no "
                       "time for other orders.");
-    bench_note(table, "Pictures: all orders to a tolerance, the rest as a geometric series. "
+    bench_note(table, "Pictures: all orders to a tolerance, the steps of an iteration counted. "
                       "Numbers: the finer grids of terrella sky, 15 wavelengths.");
     bench_note(table, "Up to 16 wavelengths are one vector: fewer do the same work.");
     return result;

@@ -156,6 +156,13 @@ static enum exit_status complete_arguments(struct render_arguments *arguments)
         arguments->view.sky_model != TRL_SKY_MODEL_OF_SCENE) {
         status = report_error(EXIT_USAGE, "render: --compare and --sky-model cannot both be given");
     }
+    const int model = arguments->view.sky_model;
+    const bool knows_orders = model == TRL_SKY_MODEL_OF_SCENE || model == TRL_SKY_SPECTRAL;
+    if (status == EXIT_OK && arguments->traced.orders.is_given &&
+        (arguments->compare || !knows_orders)) {
+        status = report_error(EXIT_USAGE, "render: --orders is for the spectral sky and "
+                                          "--reference; other models have one order");
+    }
     if (arguments->size.width == 0) {
         arguments->size =
             arguments->compare ? (struct number_size){640, 360} : (struct number_size){1280, 720};
@@ -239,6 +246,7 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     const trl_rayleigh_desc rayleigh = rayleigh_choice_resolve(&arguments->view.rayleigh, scene);
     desc.rayleigh = &rayleigh;
     desc.spectrum = (trl_spectrum)arguments->spectrum;
+    desc.max_orders = traced_max_orders(&arguments->traced);
     desc.measures_time = arguments->shows_timings;
     trl_renderer *renderer = NULL;
     trl_result result = trl_renderer_create(app->ctx, &desc, &renderer);

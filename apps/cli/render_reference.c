@@ -38,7 +38,8 @@ void traced_make_options(struct traced_arguments *arguments, struct option out[T
          .range = {1, TRL_SKY_MAX_ORDERS},
          .is_whole = true,
          .word = "all",
-         .help = "Of --reference: scatterings and reflections that light may have. Default: all."},
+         .help = "Scatterings and reflections by the ground that light may have, of the spectral "
+                 "sky and of --reference. Default: all."},
         {.name = "error",
          .kind = OPTION_TEXT,
          .target.text = &arguments->error,
@@ -48,13 +49,19 @@ void traced_make_options(struct traced_arguments *arguments, struct option out[T
     memcpy(out, options, sizeof options);
 }
 
+uint32_t traced_max_orders(const struct traced_arguments *arguments)
+{
+    const bool is_number = arguments->orders.is_given && !arguments->orders.is_word;
+    return is_number ? (uint32_t)arguments->orders.value : 0;
+}
+
 enum exit_status traced_check(const struct traced_arguments *arguments)
 {
-    const bool has_other = arguments->orders.is_given || arguments->paths.is_given ||
-                           arguments->seed.is_given || arguments->error;
+    const bool has_other =
+        arguments->paths.is_given || arguments->seed.is_given || arguments->error;
     if (has_other && !arguments->is_wanted) {
         return report_error(EXIT_USAGE,
-                            "render: --paths, --seed, --orders and --error belong to --reference");
+                            "render: --paths, --seed and --error belong to --reference");
     }
     if (arguments->error && strcasecmp(output_suffix(arguments->error), "exr") != 0) {
         return report_error(EXIT_USAGE, "render: --error: '%s' does not end with .exr",
@@ -99,9 +106,7 @@ static trl_result trace(struct app *app, const struct traced_arguments *argument
     if (arguments->seed.is_given) {
         desc.seed = (uint64_t)arguments->seed.value;
     }
-    if (arguments->orders.is_given && !arguments->orders.is_word) {
-        desc.max_orders = (uint32_t)arguments->orders.value;
-    }
+    desc.max_orders = traced_max_orders(arguments);
     return trl_reference_render(app->ctx, &desc, picture->view, picture->size.width,
                                 picture->size.height, sheets->radiance, sheets->error);
 }

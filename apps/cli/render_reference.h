@@ -8,7 +8,8 @@
 
 struct traced_arguments {
     bool is_wanted;
-    struct option_number orders, paths, seed;
+    struct option_number orders; // of the spectral sky too
+    struct option_number paths, seed;
     const char *error; // where the standard errors go; NULL: nowhere
 };
 
@@ -18,6 +19,9 @@ void traced_make_options(struct traced_arguments *arguments, struct option out[T
 
 // EXIT_USAGE (reported) when they contradict each other.
 enum exit_status traced_check(const struct traced_arguments *arguments);
+
+// Of light; 0: all.
+uint32_t traced_max_orders(const struct traced_arguments *arguments);
 
 // What is drawn, and where it goes.
 struct traced_picture {

@@ -70,6 +70,7 @@ typedef struct trl_atmosphere_desc {
     uint32_t canary;       ///< set by trl_atmosphere_desc_default(); never touch
     uint32_t wavelengths;  ///< for the solver, 1 to 16
     trl_spectrum spectrum; ///< default TRL_SPECTRUM_FULL; TRL_SPECTRUM_RGB has three wavelengths
+    uint32_t max_orders;   ///< as in trl_renderer_desc; 0 (default): all
     bool uses_cache;       ///< take from the context's cache folder, and keep there
 } trl_atmosphere_desc;
 
@@ -78,7 +79,7 @@ typedef struct trl_atmosphere_stats {
     double solve_s; ///< all orders of scattering; 0 when from the cache
     double table_s; ///< the 4D table, after that; 0 when from the cache
     double load_s;  ///< from the cache; 0 when computed
-    int orders;     ///< orders of scattering computed; the rest is the tail of a geometric series
+    int orders;     ///< of scattering, as asked for; for all of them, steps of the iteration
     size_t solution_bytes;
     size_t table_bytes;
     bool is_from_cache;

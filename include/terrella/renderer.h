@@ -59,6 +59,8 @@ typedef struct trl_renderer_desc {
     trl_gl gl;              ///< default TRL_GL_HEADLESS
     uint32_t wavelengths;   ///< to solve for, [1, TRL_RENDERER_MAX_WAVELENGTHS]; default 16
     trl_spectrum spectrum;  ///< of TRL_SKY_SPECTRAL; default TRL_SPECTRUM_FULL
+    uint32_t max_orders;    ///< of TRL_SKY_SPECTRAL: scatterings and reflections by the ground that
+                            ///< light may have, at most TRL_SKY_MAX_ORDERS; 0 (default): all
     int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
     trl_air air;            ///< default TRL_AIR_MARCH
     const trl_rayleigh_desc *rayleigh; ///< for TRL_SKY_RAYLEIGH; copied; NULL (default): as the

@@ -33,13 +33,16 @@ trl_result trl_atmosphere_create(trl_context *ctx, const trl_scene *scene,
     TRL_REQUIRE(ctx, desc->canary == ATMOSPHERE_CANARY);
     TRL_REQUIRE(ctx, desc->wavelengths <= LANES);
     TRL_REQUIRE(ctx, desc->spectrum == TRL_SPECTRUM_FULL || desc->spectrum == TRL_SPECTRUM_RGB);
+    TRL_REQUIRE(ctx, desc->max_orders <= TRL_SKY_MAX_ORDERS);
     const bool is_rgb = desc->spectrum == TRL_SPECTRUM_RGB;
     trl_atmosphere *made = mem_alloc(ctx, 1, sizeof *made);
     if (!made) {
         return TRL_ERROR_MEMORY;
     }
-    const struct atmosphere_desc inner = {
-        .wavelengths = is_rgb ? ATMOSPHERE_RGB : desc->wavelengths, .uses_cache = desc->uses_cache};
+    const struct atmosphere_desc inner = {.wavelengths =
+                                              is_rgb ? ATMOSPHERE_RGB : desc->wavelengths,
+                                          .orders = desc->max_orders,
+                                          .uses_cache = desc->uses_cache};
     const trl_result result = atmosphere_create(ctx, &scene->medium, &inner, &made->atmosphere);
     if (result != TRL_OK) {
         mem_free(ctx, made);

@@ -37,6 +37,7 @@ static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, 
         .scene = desc->scene,
         .gl = desc->gl,
         .wavelengths = desc->spectrum == TRL_SPECTRUM_RGB ? ATMOSPHERE_RGB : desc->wavelengths,
+        .orders = desc->max_orders,
         .sky_model = desc->sky_model == TRL_SKY_MODEL_OF_SCENE ? desc->scene->sky_model
                                                                : (trl_sky_model)desc->sky_model,
         .rayleigh = desc->rayleigh ? *desc->rayleigh : desc->scene->rayleigh,
@@ -64,6 +65,7 @@ trl_result trl_renderer_create(trl_context *ctx, const trl_renderer_desc *desc, 
     TRL_REQUIRE(ctx, desc->gl == TRL_GL_HEADLESS || desc->gl == TRL_GL_CURRENT);
     TRL_REQUIRE(ctx, desc->wavelengths >= 1 && desc->wavelengths <= TRL_RENDERER_MAX_WAVELENGTHS);
     TRL_REQUIRE(ctx, desc->spectrum == TRL_SPECTRUM_FULL || desc->spectrum == TRL_SPECTRUM_RGB);
+    TRL_REQUIRE(ctx, desc->max_orders <= TRL_SKY_MAX_ORDERS);
     TRL_REQUIRE(ctx, trl_air_name(desc->air) != NULL);
     const trl_result result = desc->rayleigh ? check_rayleigh(ctx, desc->rayleigh) : TRL_OK;
     return result == TRL_OK ? create_frame(ctx, desc, out) : result;

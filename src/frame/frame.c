@@ -36,6 +36,7 @@ static struct sky_desc describe_sky(const struct frame *frame)
     return (struct sky_desc){.gpu = frame->gpu,
                              .medium = &frame->medium,
                              .wavelengths = frame->wavelengths,
+                             .orders = frame->orders,
                              .rayleigh = &frame->rayleigh};
 }
 
@@ -106,6 +107,7 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
                           .scene = desc->scene,
                           .air = desc->air,
                           .wavelengths = desc->wavelengths,
+                          .orders = desc->orders,
                           .rayleigh = desc->rayleigh};
     trl_result result = medium_copy(desc->ctx, &desc->scene->medium, &out->medium);
     if (result == TRL_OK) {

@@ -28,7 +28,7 @@ struct frame_desc {
     const trl_context *ctx;
     const struct trl_scene *scene; // must outlive the frame
     trl_gl gl;
-    uint32_t wavelengths;
+    uint32_t wavelengths, orders; // see struct sky_desc
     trl_sky_model sky_model;
     trl_air air;
     trl_rayleigh_desc rayleigh; // checked
@@ -46,7 +46,7 @@ struct frame {
     trl_sky_model sky_model; // that frames are drawn with
     struct sky_spheres spheres;
     trl_air air;
-    uint32_t wavelengths;
+    uint32_t wavelengths, orders;
     trl_rayleigh_desc rayleigh;
     struct exposure exposure;
     struct tone tone;

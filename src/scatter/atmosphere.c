@@ -38,13 +38,15 @@ static struct solver_settings choose_settings(const struct optics *optics,
 
 // Red, green and blue: those of Bruneton and Neyret 2008, whose tables hold three wavelengths;
 // Elek 2010 compares with three and does not print his.
-static void choose_wavelengths(struct atmosphere *a, uint32_t wavelengths)
+static void choose_wavelengths(struct atmosphere *a, const struct atmosphere_desc *desc)
 {
+    // Single orders would lack what counts as not scattered.
+    const enum optics_use use = desc->orders > 0 ? OPTICS_WHOLE : OPTICS_PICTURES;
     static const double rgb_nm[] = {440, 550, 680};
-    if (wavelengths == ATMOSPHERE_RGB) {
-        optics_init_for(OPTICS_PICTURES, &a->medium, rgb_nm, 3, a->optics);
+    if (desc->wavelengths == ATMOSPHERE_RGB) {
+        optics_init_for(use, &a->medium, rgb_nm, 3, a->optics);
     } else {
-        optics_init_visible(a->optics, &a->medium, (int)wavelengths);
+        optics_init_visible(use, &a->medium, (int)desc->wavelengths, a->optics);
     }
 }
 
@@ -107,7 +109,8 @@ static void measure(struct atmosphere *a)
 // Solved, loaded, or neither (TRL_OK, without a table) where only the cache was asked.
 static trl_result obtain(struct atmosphere *a, const struct atmosphere_desc *desc)
 {
-    const struct solver_settings settings = choose_settings(a->optics, desc->quality);
+    struct solver_settings settings = choose_settings(a->optics, desc->quality);
+    settings.orders = (int)desc->orders;
     const bool is_fine = desc->quality == ATMOSPHERE_FINE;
     const bool has_cache = desc->uses_cache && is_fine && a->ctx->cache_dir[0] != '\0';
     a->peaked = peaked_choose(a->optics);
@@ -141,7 +144,7 @@ trl_result atmosphere_create(const trl_context *ctx, const struct medium *medium
         result = TRL_ERROR_MEMORY;
     }
     if (result == TRL_OK) {
-        choose_wavelengths(a, desc->wavelengths);
+        choose_wavelengths(a, desc);
         result = obtain(a, desc);
     }
     if (result != TRL_OK || !a->table.texels) {

@@ -16,6 +16,7 @@ enum { ATMOSPHERE_RGB = LANES + 1 };
 
 struct atmosphere_desc {
     uint32_t wavelengths; // for the solver, 1 .. LANES, or ATMOSPHERE_RGB
+    uint32_t orders;      // of scattering, reflections by the ground included; 0: all
     bool uses_cache;
     bool only_from_cache; // nothing is computed: *out is NULL where the cache has none
     enum atmosphere_quality quality;
@@ -26,7 +27,7 @@ struct atmosphere_desc atmosphere_desc_default(void); // 16, cached, fine
 struct atmosphere_stats {
     double solve_s, table_s; // 0 when from the cache
     double load_s;           // 0 when computed
-    int orders;
+    int orders;              // as in struct solution
     size_t solution_bytes, table_bytes;
     bool is_from_cache;
 };

@@ -42,6 +42,7 @@ static uint64_t hash_settings(uint64_t hash, const struct solver_settings *s)
                               s->first_refinement,
                               s->nodes_per_shell,
                               s->first_nodes_per_shell,
+                              s->orders,
                               s->max_orders,
                               s->tolerance};
     return hash_bytes(hash, numbers, sizeof numbers);

@@ -365,11 +365,12 @@ void optics_init(struct optics *optics, const struct medium *medium, const doubl
     optics_init_for(OPTICS_NUMBERS, medium, wavelength_nm, count, optics);
 }
 
-void optics_init_visible(struct optics *optics, const struct medium *medium, int count)
+void optics_init_visible(enum optics_use use, const struct medium *medium, int count,
+                         struct optics *optics)
 {
     double nm[LANES];
     for (int k = 0; k < count; k++) {
         nm[k] = count > 1 ? FIRST_NM + (LAST_NM - FIRST_NM) * k / (count - 1) : 550;
     }
-    optics_init_for(OPTICS_PICTURES, medium, nm, count, optics);
+    optics_init_for(use, medium, nm, count, optics);
 }

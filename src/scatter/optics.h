@@ -61,8 +61,9 @@ void optics_init(struct optics *optics, const struct medium *medium, const doubl
 void optics_init_for(enum optics_use use, const struct medium *medium, const double *wavelength_nm,
                      int count, struct optics *optics);
 
-// For pictures, at `count` wavelengths that are spread evenly over what eyes see, for colours.
-void optics_init_visible(struct optics *optics, const struct medium *medium, int count);
+// At `count` wavelengths that are spread evenly over what eyes see, for colours.
+void optics_init_visible(enum optics_use use, const struct medium *medium, int count,
+                         struct optics *optics);
 
 // The largest vertical optical depth over the wavelengths: grids and rules grow with it.
 double optics_largest_depth(const struct optics *optics);

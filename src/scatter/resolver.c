@@ -11,7 +11,7 @@ struct resolver {
     const trl_context *ctx;
     trl_context quiet; // of the thread: progress asks whether to stop, and stopping is no error
     struct medium medium;
-    uint32_t wavelengths;
+    struct atmosphere_desc desc; // of the fine one
     pthread_t thread;
     pthread_mutex_t lock; // of `solved`
     struct atmosphere *solved;
@@ -45,15 +45,13 @@ static bool solve(struct resolver *r, const struct atmosphere_desc *desc)
 static void *run(void *user)
 {
     struct resolver *r = user;
-    struct atmosphere_desc desc = atmosphere_desc_default();
-    desc.wavelengths = r->wavelengths;
+    struct atmosphere_desc desc = r->desc;
     desc.only_from_cache = true;
     if (!solve(r, &desc)) {
         desc.only_from_cache = false;
         desc.quality = ATMOSPHERE_DRAFT;
         if (solve(r, &desc)) {
-            desc.quality = ATMOSPHERE_FINE;
-            (void)solve(r, &desc);
+            (void)solve(r, &r->desc);
         }
     }
     atomic_store(&r->is_done, true);
@@ -69,8 +67,8 @@ static void log_but_cancellation(void *user, trl_log_level level, trl_log_item i
     }
 }
 
-trl_result resolver_start(const trl_context *ctx, const struct medium *medium, uint32_t wavelengths,
-                          struct resolver **out)
+trl_result resolver_start(const trl_context *ctx, const struct medium *medium,
+                          const struct atmosphere_desc *desc, struct resolver **out)
 {
     *out = NULL;
     struct resolver *r = mem_alloc(ctx, 1, sizeof *r);
@@ -83,7 +81,7 @@ trl_result resolver_start(const trl_context *ctx, const struct medium *medium, u
     r->quiet.desc.progress_user = r;
     r->quiet.desc.log = log_but_cancellation;
     r->quiet.desc.log_user = r;
-    r->wavelengths = wavelengths;
+    r->desc = *desc;
     trl_result result = medium_copy(ctx, medium, &r->medium);
     if (result == TRL_OK) {
         pthread_mutex_init(&r->lock, NULL);

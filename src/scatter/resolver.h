@@ -9,9 +9,9 @@
 
 struct resolver;
 
-// Copies the medium; its numbers have been checked. TRL_ERROR_MEMORY.
+// Copies the medium; its numbers have been checked. `desc` is of the fine one. TRL_ERROR_MEMORY.
 TRL_MUST_USE trl_result resolver_start(const trl_context *ctx, const struct medium *medium,
-                                       uint32_t wavelengths, struct resolver **out);
+                                       const struct atmosphere_desc *desc, struct resolver **out);
 
 // What has been solved since it was last asked, or NULL. The caller owns it.
 struct atmosphere *resolver_take(struct resolver *resolver);

@@ -126,7 +126,7 @@ static trl_result init(const struct sky_desc *desc, struct single *sky)
     if (!sky->optics) {
         return TRL_ERROR_MEMORY;
     }
-    optics_init_visible(sky->optics, desc->medium, (int)desc->wavelengths);
+    optics_init_visible(OPTICS_PICTURES, desc->medium, (int)desc->wavelengths, sky->optics);
     trl_result result = single_tables_init(sky->ctx, sky->optics, &sky->tables);
     if (result == TRL_OK) {
         result = sky_pixels_init(desc, sky->tables.sun.disc_rad, &sky->pixels);

@@ -19,6 +19,7 @@ struct sky_desc {
     struct gpu *gpu;
     const struct medium *medium;       // must outlive the sky
     uint32_t wavelengths;              // to solve for, by models that solve
+    uint32_t orders;                   // of scattering, by models that know several; 0: all
     const trl_rayleigh_desc *rayleigh; // needed during create only, checked
 };
 

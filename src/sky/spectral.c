@@ -25,7 +25,7 @@ struct spectral {
     struct sky_pixels pixels;
     struct spectral_programs programs[TRL_AIR_MARCH + 1]; // by trl_air; made when first asked for
     struct sky_march march;
-    uint32_t wavelengths;
+    struct atmosphere_desc desc;
     struct resolver *resolver; // of a medium that was changed to, or NULL
 };
 
@@ -93,11 +93,11 @@ static trl_result make_programs(struct spectral *sky, trl_air air)
 
 static trl_result init(const struct sky_desc *desc, struct spectral *sky)
 {
-    struct atmosphere_desc fine = atmosphere_desc_default();
-    fine.wavelengths = desc->wavelengths;
-    sky->wavelengths = desc->wavelengths;
+    sky->desc = atmosphere_desc_default();
+    sky->desc.wavelengths = desc->wavelengths;
+    sky->desc.orders = desc->orders;
     struct atmosphere *atmosphere = NULL;
-    trl_result result = atmosphere_create(sky->ctx, desc->medium, &fine, &atmosphere);
+    trl_result result = atmosphere_create(sky->ctx, desc->medium, &sky->desc, &atmosphere);
     if (result == TRL_OK) {
         result = spectral_maps_init(sky->gpu, atmosphere, &sky->maps);
     }
@@ -184,8 +184,7 @@ static trl_result spectral_change(void *self, const struct medium *medium)
     if (medium->constituent_count == count) {
         result = spectral_maps_set_phases(&sky->maps, medium);
     }
-    return result == TRL_OK ? resolver_start(sky->ctx, medium, sky->wavelengths, &sky->resolver)
-                            : result;
+    return result == TRL_OK ? resolver_start(sky->ctx, medium, &sky->desc, &sky->resolver) : result;
 }
 
 static bool spectral_is_settled(const void *self)

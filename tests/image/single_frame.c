@@ -49,7 +49,7 @@ static int set_up(void **state)
     desc.scene = f->scene;
     desc.sky_model = TRL_SKY_SINGLE;
     assert_int_equal(trl_renderer_create(f->ctx, &desc, &f->renderer), TRL_OK);
-    optics_init_visible(&f->optics, &f->scene->medium, LANES);
+    optics_init_visible(OPTICS_PICTURES, &f->scene->medium, LANES, &f->optics);
     struct solver_settings settings = solver_settings_choose(&f->optics, SOLVER_INTERACTIVE);
     settings.orders = 1;
     assert_int_equal(solution_init(f->ctx, &f->optics, &settings, &f->solution), TRL_OK);

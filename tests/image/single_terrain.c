@@ -77,7 +77,7 @@ static int set_up(void **state)
     const struct gpu_target_desc target = {
         .color_count = 1, .colors[0].texture = &f->radiance, .depth.texture = &f->kinds};
     assert_int_equal(gpu_target_init(f->gpu, &target, &f->target), TRL_OK);
-    optics_init_visible(&f->optics, &f->scene->medium, LANES);
+    optics_init_visible(OPTICS_PICTURES, &f->scene->medium, LANES, &f->optics);
     ray_rules_init(&f->rules);
     assert_int_equal(sunlight_reserve(f->ctx, &f->optics, &f->sun), TRL_OK);
     assert_int_equal(sunlight_fill(f->ctx, &f->rules, &f->sun), TRL_OK);
