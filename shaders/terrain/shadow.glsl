@@ -5,7 +5,7 @@
 #include "shared/hemisphere.glsl"
 #include "shared/penumbra.glsl"
 
-uniform sampler2D u_shadow_map; // altitude of the shadow, distance to what casts it, m
+uniform sampler2D u_shadow_map; // altitude of the shadow, distance to what casts it, ground; m
 uniform vec4 u_shadow; // scale of grid to texture coordinates, power, extent, sphere's radius
 uniform mat3 u_shadow_from_planet;
 uniform float u_shadow_sun;   // angular radius of the sun
@@ -66,12 +66,13 @@ float terrain_sun_visibility(vec3 position, float altitude)
 }
 
 // For a point of the air, the place t of shared/penumbra.glsl: x in the terrain's shadow, y in that
-// of the level sphere, which direct light already knows. Outside the map there is no terrain.
-vec2 terrain_air_shadow(vec3 position, float altitude)
+// of the level sphere, which direct light already knows; z is the height above the ground, m.
+// Outside the map there is no terrain.
+vec3 terrain_air_shadow(vec3 position, float altitude)
 {
     vec3 local = shadow_local(position);
     vec2 g = shadow_grid(local);
-    vec2 shadow = textureLod(u_shadow_map, 0.5 + 0.5 * g * u_shadow.x, 0.0).xy;
+    vec3 shadow = textureLod(u_shadow_map, 0.5 + 0.5 * g * u_shadow.x, 0.0).xyz;
     float sine = shadow_sine(local);
     float cos2 = max(1.0 - sine * sine, 0.01);
     float inverse = 1.0 / sqrt(cos2);
@@ -81,5 +82,6 @@ vec2 terrain_air_shadow(vec3 position, float altitude)
     float t = (altitude - shadow.x) / max(max(shadow.y, 1.0) * spread, 0.5);
     float level_t = level / max(-u_shadow.w * sine * inverse * spread, 0.5);
     bool is_inside = max(abs(g.x), abs(g.y)) < 1.0;
-    return vec2(is_inside ? t : 2.0, sine < 0.0 ? level_t : 2.0);
+    return vec3(is_inside ? t : 2.0, sine < 0.0 ? level_t : 2.0,
+                is_inside ? altitude - shadow.z : 1.0e6);
 }

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Where the shadow map starts from: the ground's altitude, and a distance of 0.
+// Where the shadow map starts from: the ground's altitude, a distance of 0, and the altitude again,
+// which stays.
 // validate: ELEVATION_COUNT 0; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0
 // validate: ELEVATION_COUNT 4; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; NO_FLOAT_LINEAR
 #include "terrain/layers.glsl"
 #include "terrain/shadow_map.glsl"
 
-out vec2 o_shadow;
+out vec4 o_shadow;
 
 void main()
 {
@@ -15,5 +16,6 @@ void main()
     // llvmpipe fetches it.
     vec2 quad = 2.0 * floor(0.5 * gl_FragCoord.xy) + 1.0;
     float cell = map_cell(map_grid(quad)) * u_anchor.w;
-    o_shadow = vec2(terrain_altitude_linear(geo_from_local(o, 1.0), log2(0.25 * cell)), 0.0);
+    float altitude = terrain_altitude_linear(geo_from_local(o, 1.0), log2(0.25 * cell));
+    o_shadow = vec4(altitude, 0.0, altitude, 0.0);
 }

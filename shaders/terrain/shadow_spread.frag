@@ -5,11 +5,11 @@
 // crest within 2^n has been looked at. The last pass leaves the place itself out.
 #include "terrain/shadow_map.glsl"
 
-uniform sampler2D u_previous; // altitude of the shadow, m; distance to what casts it, m
+uniform sampler2D u_previous; // altitude of the shadow; distance to what casts it; ground; m
 uniform vec3 u_sun;           // local frame
 uniform vec4 u_spread; // step, m (last pass: in cells); 1 in the last pass; sphere's radius, m
 
-out vec2 o_shadow;
+out vec4 o_shadow;
 
 void main()
 {
@@ -30,8 +30,8 @@ void main()
     // r cos(elevation) is constant along a ray: one that passes there at (radius + h), passes here
     // at (radius + h) cos(e + angle) / cos(e).
     float shade = there.x - (radius + there.x) * (versine + sin(angle) * slope);
-    vec2 here = texelFetch(u_previous, ivec2(gl_FragCoord.xy), 0).xy;
+    vec4 here = texelFetch(u_previous, ivec2(gl_FragCoord.xy), 0);
     bool is_inside = max(abs(at.x), abs(at.y)) <= 1.0;
     here.x = u_spread.y > 0.5 ? -1e5 : here.x;
-    o_shadow = is_inside && shade > here.x ? vec2(shade, there.y + step_m) : here;
+    o_shadow = is_inside && shade > here.x ? vec4(shade, there.y + step_m, here.zw) : here;
 }

@@ -38,7 +38,7 @@ static trl_result make_map(struct terrain_shadow *s, int i)
     struct gpu_texture_desc desc = gpu_texture_desc_default();
     desc.label = "terrain shadow";
     // Half floats step by metres: only where nothing better is filtered.
-    desc.format = s->gpu->caps.has_float_linear ? GPU_FORMAT_RG32F : GPU_FORMAT_RG16F;
+    desc.format = s->gpu->caps.has_float_linear ? GPU_FORMAT_RGBA32F : GPU_FORMAT_RGBA16F;
     desc.width = desc.height = SIDE;
     const trl_result result = gpu_texture_init(s->gpu, &desc, &s->maps[i]);
     if (result != TRL_OK) {

@@ -19,7 +19,8 @@ struct terrain_shadow {
     double power, extent;
     struct gpu_program heights[SURFACE_MAX_LAYERS + 1]; // by the elevation layers in reach
     struct gpu_program spread;
-    // R = altitude, m; G = distance to what casts it, m. The two are drawn from one another.
+    // R = altitude, m; G = distance to what casts it, m; B = altitude of the ground, m. The two are
+    // drawn from one another.
     struct gpu_texture maps[2];
     struct gpu_target targets[2];
     int current; // the finished one

@@ -109,15 +109,26 @@ static struct camera find_camera(const trl_view *view)
     return camera;
 }
 
-static float *draw(const struct world *w, const trl_view *view, trl_air air)
+struct size {
+    int width, height;
+};
+
+static float *draw_size(const struct world *w, const trl_view *view, trl_air air, struct size size)
 {
-    float *rgba = malloc(sizeof(float) * 4 * WIDTH * HEIGHT);
+    float *rgba = malloc(sizeof(float) * 4 * (size_t)size.width * (size_t)size.height);
     assert_non_null(rgba);
     assert_int_equal(trl_renderer_set_air(w->renderer, air), TRL_OK);
     assert_int_equal(trl_renderer_air(w->renderer), air);
-    assert_int_equal(trl_renderer_draw(w->renderer, view, WIDTH, HEIGHT, 0), TRL_OK);
+    assert_int_equal(
+        trl_renderer_draw(w->renderer, view, (uint32_t)size.width, (uint32_t)size.height, 0),
+        TRL_OK);
     assert_int_equal(trl_renderer_read_radiance(w->renderer, rgba), TRL_OK);
     return rgba;
+}
+
+static float *draw(const struct world *w, const trl_view *view, trl_air air)
+{
+    return draw_size(w, view, air, (struct size){WIDTH, HEIGHT});
 }
 
 // Part of a uniform disc above a straight edge, which its middle is `height` radii above.
@@ -258,6 +269,34 @@ static void without_terrain_in_the_way_marching_changes_nothing(void **state)
     destroy_world(&w);
 }
 
+// The sun is higher than the slopes are steep, so there is no shadow. Rays of the march's grid see
+// the plain beyond the ridge and go through it.
+static void a_ridge_in_full_light_takes_nothing_however_coarse_the_picture(void **state)
+{
+    struct fixture *f = *state;
+    struct world w;
+    make_world(f, ridge_height, &w);
+    trl_view view = make_view(90, -4);
+    view.altitude_m = 4000;
+    view.vertical_fov_rad = 16 * DEGREE;
+    view.sun_latitude_or_elevation_rad = 40 * DEGREE;
+    const struct size sizes[] = {{64, 48}, {320, 240}};
+    for (int s = 0; s < 2; s++) {
+        float *table = draw_size(&w, &view, TRL_AIR_TABLE, sizes[s]);
+        float *march = draw_size(&w, &view, TRL_AIR_MARCH, sizes[s]);
+        double worst = 0;
+        for (int i = 0; i < 4 * sizes[s].width * sizes[s].height; i++) {
+            worst = fmax(worst, fabs((double)march[i] / (double)table[i] - 1));
+        }
+        printf("%d x %d: %.2f %%\n", sizes[s].width, sizes[s].height, 100 * worst);
+        // Rounding, and crests that the shadow map's cells cut.
+        assert_true(worst < 0.001);
+        free(table);
+        free(march);
+    }
+    destroy_world(&w);
+}
+
 static void the_mean_over_a_segment_is_that_of_its_points(void **state)
 {
     (void)state;
@@ -298,6 +337,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_over_a_segment_is_that_of_its_points),
         cmocka_unit_test(without_terrain_in_the_way_marching_changes_nothing),
+        cmocka_unit_test(a_ridge_in_full_light_takes_nothing_however_coarse_the_picture),
         cmocka_unit_test(a_ridge_takes_the_light_that_brute_force_finds_missing),
         cmocka_unit_test(the_way_can_be_chosen_by_its_name_and_nothing_else),
     };

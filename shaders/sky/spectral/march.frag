@@ -78,19 +78,37 @@ float altitude_at(Ray ray, float distance_m)
     return rise / (sqrt(max(u_planet.x * u_planet.x + rise, 0.0)) + u_planet.x);
 }
 
-// Mean over a segment of what terrain leaves of the star, relative to what the level sphere does.
-float terrain_leaves(Ray ray, float from_m, float to_m)
+// Over a piece, from one terrain_air_shadow to another, x: the part of it that terrain leaves in
+// the star's light, relative to what the level sphere does; y: the part of it that is air. A ray of
+// the grid goes as far as the pixels around it see, through hills that they see past: in there is
+// no air that could be in the shade.
+vec2 piece_leaves(vec3 from, vec3 to)
 {
-    float seen = 0.0;
-    vec2 before = terrain_air_shadow(ray.direction * from_m, altitude_at(ray, from_m));
+    float surface = clamp(from.z / (from.z - to.z + 1.0e-6), 0.0, 1.0); // where it is crossed
+    float above = max(from.z, to.z) <= 0.0   ? 0.0
+                  : min(from.z, to.z) >= 0.0 ? 1.0
+                  : from.z > 0.0             ? surface
+                                             : 1.0 - surface;
+    vec2 crossing = mix(from.xy, to.xy, surface);
+    vec2 begin = from.z < 0.0 ? crossing : from.xy;
+    vec2 end = to.z < 0.0 ? crossing : to.xy;
+    float level = penumbra_mean(begin.y, end.y);
+    float seen = level > 0.01 ? min(penumbra_mean(begin.x, end.x) / level, 1.0) : 1.0;
+    return vec2(seen * above, above);
+}
+
+// The same over a segment.
+vec2 terrain_leaves(Ray ray, float from_m, float to_m)
+{
+    vec2 sum = vec2(0.0);
+    vec3 before = terrain_air_shadow(ray.direction * from_m, altitude_at(ray, from_m));
     for (int i = 1; i <= SHADOW_PARTS; i++) {
         float s = mix(from_m, to_m, float(i) / float(SHADOW_PARTS));
-        vec2 here = terrain_air_shadow(ray.direction * s, altitude_at(ray, s));
-        float level = penumbra_mean(before.y, here.y);
-        seen += level > 0.01 ? min(penumbra_mean(before.x, here.x) / level, 1.0) : 1.0;
+        vec3 here = terrain_air_shadow(ray.direction * s, altitude_at(ray, s));
+        sum += piece_leaves(before, here);
         before = here;
     }
-    return seen / float(SHADOW_PARTS);
+    return sum / float(SHADOW_PARTS);
 }
 #endif
 
@@ -114,13 +132,13 @@ void main()
         all += (source.first + source.multiple) * width;
     }
 #else
-    float visible = 1.0;
+    vec2 leaves = vec2(1.0);
 #ifdef SURFACE
-    visible = terrain_leaves(ray, from, to);
+    leaves = terrain_leaves(ray, from, to);
 #endif
     Source source = source_at(ray, azimuth, row, 0.5 * (from + to));
-    lit.xyz += (source.first * visible + source.multiple) * (to - from);
-    all += (source.first + source.multiple) * (to - from);
+    lit.xyz += (source.first * leaves.x + source.multiple * leaves.y) * (to - from);
+    all += (source.first + source.multiple) * (leaves.y * (to - from));
 #endif
     out_lit = lit;
     out_all = vec4(all, 0.0);
