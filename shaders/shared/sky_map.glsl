@@ -70,13 +70,40 @@ SHARED_FN Number sky_map_azimuth(Number cos_azimuth)
     return 0.5 - 0.5 * cos_azimuth;
 }
 
+// From outside, rays of one zenith angle reach the planet under suns from noon to night. Their
+// coordinate is sky_map_sun where they meet the ground, or are closest to it, between its values at
+// both ends: dense where twilight falls. The cosine there is middle + reach cos(azimuth).
+SHARED_STRUCT(SkyMapSuns)
+{
+    Number middle, reach;
+};
+
+// `distance` goes from the eye to that place, whose radius is `place`.
+SHARED_FN SkyMapSuns sky_map_suns(Length eye, Length distance, Length place, Number mu,
+                                  Number sun_mu)
+{
+    SkyMapSuns suns;
+    suns.middle = (eye + distance * mu) * sun_mu / place;
+    suns.reach =
+        distance * sqrt(shared_max((1.0 - mu * mu) * (1.0 - sun_mu * sun_mu), 1.0e-12)) / place;
+    return suns;
+}
+
 // Aerial perspective: rows of rays that meet the reference sphere, by the distance to it (nearest
 // at the nadir, farthest along the horizon); rows of rays that pass above, by mu between the
 // horizon and the highest ray; and the depth along a ray through the air, by the root of its share.
+// Both have another form from outside.
 SHARED_FN Number sky_map_ground_row(Length distance, Length nearest, Length farthest)
 {
     return sqrt(
         shared_clamp((distance - nearest) / shared_max(farthest - nearest, 1.0e-3), 0.0, 1.0));
+}
+
+// From outside: dense at the nadir, where rows are wide on the ground, and at the limb.
+SHARED_FN Number sky_map_ground_row_outside(Length distance, Length nearest, Length farthest)
+{
+    Number y = (distance - nearest) / shared_max(farthest - nearest, 1.0e-3);
+    return acos(shared_clamp(1.0 - 2.0 * y, -1.0, 1.0)) / SHARED_PI;
 }
 
 SHARED_FN Number sky_map_air_row(Number mu, Number horizon_mu, Number highest_mu)
@@ -88,6 +115,12 @@ SHARED_FN Number sky_map_air_row(Number mu, Number horizon_mu, Number highest_mu
 SHARED_FN Number sky_map_depth(Length distance, Length start, Length end)
 {
     return sqrt(shared_clamp((distance - start) / shared_max(end - start, 1.0e-3), 0.0, 1.0));
+}
+
+// From outside rays come from thin air into the densest.
+SHARED_FN Number sky_map_depth_outside(Length distance, Length start, Length end)
+{
+    return 1.0 - sqrt(shared_clamp((end - distance) / shared_max(end - start, 1.0e-3), 0.0, 1.0));
 }
 
 #endif // SHARED_SKY_MAP_GLSL

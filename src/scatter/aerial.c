@@ -3,6 +3,7 @@
 #include "scatter/aerial.h"
 
 #include "shared/phase.glsl"
+#include "shared/sky_map.glsl"
 
 #include <math.h>
 #include <string.h>
@@ -16,15 +17,15 @@ static const double FIRST_DEPTH = 0.1;
 struct aerial_worker {
     struct ray ray;
     struct transport_scratch *scratch;
-    float sun_mu[AERIAL_AZIMUTHS], nu[AERIAL_AZIMUTHS];
-    float phase[MEDIUM_MAX_CONSTITUENTS][AERIAL_AZIMUTHS];
-    lanes radiance[1 + TABLE_MAX_PEAKED][AERIAL_AZIMUTHS]; // up to here, all orders
-    lanes cell[AERIAL_SOURCES][AERIAL_AZIMUTHS];           // of one cell, as aerial.source
+    float sun_mu[AERIAL_LONG], nu[AERIAL_LONG];
+    float phase[MEDIUM_MAX_CONSTITUENTS][AERIAL_LONG];
+    lanes radiance[1 + TABLE_MAX_PEAKED][AERIAL_LONG]; // up to here, all orders
+    lanes cell[AERIAL_SOURCES][AERIAL_LONG];           // of one cell, as aerial.source
 };
 
-static size_t row_floats(void)
+static size_t map_floats(void)
 {
-    return (size_t)AERIAL_DEPTHS * BAND_COUNT;
+    return (size_t)AERIAL_ROWS * AERIAL_LONG * AERIAL_SHORT * TEXEL_FLOATS;
 }
 
 trl_result aerial_init(const struct atmosphere *atmosphere, struct aerial *out)
@@ -32,16 +33,15 @@ trl_result aerial_init(const struct atmosphere *atmosphere, struct aerial *out)
     const trl_context *ctx = atmosphere->ctx;
     *out = (struct aerial){.atmosphere = atmosphere, .worker_count = lanes_max_threads()};
     out->workers = mem_alloc(ctx, (size_t)out->worker_count, sizeof *out->workers);
-    out->extinction = mem_alloc(ctx, AERIAL_ROWS * row_floats(), sizeof(float));
+    out->extinction = mem_alloc(ctx, (size_t)AERIAL_ROWS * AERIAL_LONG * BAND_COUNT, sizeof(float));
     bool has_memory = out->workers && out->extinction;
     for (int c = 0; c <= atmosphere->peaked.count && has_memory; c++) {
-        out->scattered[c] =
-            mem_alloc(ctx, (size_t)AERIAL_ROWS * AERIAL_AZIMUTHS * row_floats(), sizeof(float));
+        out->scattered[c] = mem_alloc(ctx, map_floats(), sizeof(float));
         has_memory = out->scattered[c] != NULL;
     }
     trl_result result = has_memory ? TRL_OK : TRL_ERROR_MEMORY;
     for (int n = 0; n < out->worker_count && result == TRL_OK; n++) {
-        result = transport_scratch_create(ctx, AERIAL_AZIMUTHS, atmosphere->solution.moments.suns,
+        result = transport_scratch_create(ctx, AERIAL_LONG, atmosphere->solution.moments.suns,
                                           &out->workers[n].scratch);
     }
     if (result != TRL_OK) {
@@ -79,9 +79,7 @@ trl_result aerial_add_source(struct aerial *a)
 {
     for (int c = 0; c < AERIAL_SOURCES; c++) {
         if (!a->source[c] && (c <= a->atmosphere->peaked.count || c == AERIAL_MULTIPLE)) {
-            a->source[c] =
-                mem_alloc(a->atmosphere->ctx, (size_t)AERIAL_ROWS * AERIAL_AZIMUTHS * row_floats(),
-                          sizeof(float));
+            a->source[c] = mem_alloc(a->atmosphere->ctx, map_floats(), sizeof(float));
             if (!a->source[c]) {
                 return TRL_ERROR_MEMORY;
             }
@@ -97,7 +95,8 @@ static double row_mu(const struct aerial *a, int row)
     const double ground = a->atmosphere->optics->ground_radius_m;
     if (row < AERIAL_GROUND_ROWS) {
         const double x = (double)row / (AERIAL_GROUND_ROWS - 1);
-        const double distance = a->nearest_m + (a->farthest_m - a->nearest_m) * x * x;
+        const double y = a->is_outside ? 0.5 - 0.5 * cos(M_PI * x) : x * x;
+        const double distance = a->nearest_m + (a->farthest_m - a->nearest_m) * y;
         const double mu = ((ground - r) * (ground + r) - distance * distance) / (2 * r * distance);
         return fmax(-1, fmin(mu, a->horizon_mu - 1e-10));
     }
@@ -105,31 +104,68 @@ static double row_mu(const struct aerial *a, int row)
     return fmin(1, a->horizon_mu + (a->highest_mu - a->horizon_mu) * x * x + 1e-10);
 }
 
-static void fill_family(struct aerial_worker *w, double mu, double sun_mu)
+static double sun_coordinate(const struct table *t, double sun_mu)
 {
+    return sky_map_sun(sun_mu, t->sun_centre, t->sun_width, t->sun_first, t->sun_last);
+}
+
+// Cosines of the azimuths of a row that is seen from outside: the inverse of sky_map_suns and
+// sky_map_sun. `end_m` is where the ray meets the ground, or 0.
+static void find_azimuths(const struct aerial *a, double mu, double sun_mu, double end_m,
+                          double cos_azimuth[AERIAL_LONG])
+{
+    const struct table *t = &a->atmosphere->table;
+    const double r = a->eye_radius_m;
+    const double ground = a->atmosphere->optics->ground_radius_m;
+    const SkyMapSuns suns =
+        end_m > 0 ? sky_map_suns(r, end_m, ground, mu, sun_mu)
+                  : sky_map_suns(r, -r * mu, r * sqrt(fmax(0, 1 - mu * mu)), mu, sun_mu);
+    const double lowest = sun_coordinate(t, suns.middle - suns.reach);
+    const double highest = sun_coordinate(t, suns.middle + suns.reach);
+    for (int p = 0; p < a->azimuths; p++) {
+        const double x = lowest + (highest - lowest) * p / (a->azimuths - 1);
+        const double z = t->sun_first + (t->sun_last - t->sun_first) * x;
+        const double cosine = (t->sun_centre + t->sun_width * sinh(z) - suns.middle) / suns.reach;
+        cos_azimuth[p] = fmax(-1, fmin(1, cosine));
+    }
+}
+
+static void fill_family(const struct aerial *a, struct aerial_worker *w, double mu, double sun_mu,
+                        double end_m)
+{
+    double cos_azimuths[AERIAL_LONG];
+    if (a->is_outside) {
+        find_azimuths(a, mu, sun_mu, end_m, cos_azimuths);
+    } else {
+        for (int p = 0; p < a->azimuths; p++) {
+            cos_azimuths[p] = 1 - 2.0 * p / (a->azimuths - 1);
+        }
+    }
     const double sine = sqrt(fmax(0, 1 - mu * mu));
     const double sun_sine = sqrt(fmax(0, 1 - sun_mu * sun_mu));
-    for (int p = 0; p < AERIAL_AZIMUTHS; p++) {
-        const double cos_azimuth = 1 - 2.0 * p / (AERIAL_AZIMUTHS - 1);
+    for (int p = 0; p < a->azimuths; p++) {
+        const double cos_azimuth = cos_azimuths[p];
         w->sun_mu[p] = (float)sun_mu;
         w->nu[p] = (float)(mu * sun_mu + sine * sun_sine * cos_azimuth);
     }
 }
 
-static size_t texel_at(int row, int azimuth, int depth)
+static size_t texel_at(const struct aerial *a, int row, int azimuth, int depth)
 {
-    return ((size_t)row * AERIAL_AZIMUTHS + (size_t)azimuth) * row_floats() +
-           (size_t)depth * TEXEL_FLOATS;
+    const int line = a->is_outside ? depth : azimuth;
+    const int column = a->is_outside ? azimuth : depth;
+    return (((size_t)row * AERIAL_SHORT + (size_t)line) * AERIAL_LONG + (size_t)column) *
+           TEXEL_FLOATS;
 }
 
 static void store_scattered(struct aerial *a, const struct aerial_worker *w, int row, int depth,
                             double length_m)
 {
     for (int c = 0; c <= a->atmosphere->peaked.count; c++) {
-        for (int p = 0; p < AERIAL_AZIMUTHS; p++) {
+        for (int p = 0; p < a->azimuths; p++) {
             const double phase = c == 0 ? phase_rayleigh((double)w->nu[p]) : 1;
             bands_xyz(&a->atmosphere->bands, &w->radiance[c][p], (float)(1 / (length_m * phase)),
-                      a->scattered[c] + texel_at(row, p, depth));
+                      a->scattered[c] + texel_at(a, row, p, depth));
         }
     }
 }
@@ -138,11 +174,11 @@ static void store_source(struct aerial *a, const struct aerial_worker *w, int ro
                          double length_m)
 {
     for (int c = 0; c < AERIAL_SOURCES; c++) {
-        for (int p = 0; a->source[c] && p < AERIAL_AZIMUTHS; p++) {
+        for (int p = 0; a->source[c] && p < a->azimuths; p++) {
             const bool is_peaked = c > 0 && c != AERIAL_MULTIPLE;
             const double phase = is_peaked ? 1 : phase_rayleigh((double)w->nu[p]);
             bands_xyz(&a->atmosphere->bands, &w->cell[c][p], (float)(1 / (length_m * phase)),
-                      a->source[c] + texel_at(row, p, depth));
+                      a->source[c] + texel_at(a, row, p, depth));
         }
     }
 }
@@ -161,7 +197,7 @@ static void add_cell(const struct aerial *a, struct aerial_worker *w,
     transport_add_single(&atm->solution.sun, &w->ray, family, channels, out, w->scratch);
     transport_add_multiple(&atm->solution.moments, &w->ray, family, w->cell[AERIAL_MULTIPLE],
                            w->scratch);
-    for (int p = 0; p < AERIAL_AZIMUTHS; p++) {
+    for (int p = 0; p < a->azimuths; p++) {
         for (int c = 0; c <= atm->peaked.count; c++) {
             w->radiance[c][p] += w->cell[c][p];
         }
@@ -178,7 +214,7 @@ static void store_extinction(struct aerial *a, const double *column_m, int row, 
         for (int i = 0; i < optics->constituent_count; i++) {
             sum += (double)optics->extinction_per_m[i][a->atmosphere->bands.lane[b]] * column_m[i];
         }
-        a->extinction[(size_t)row * row_floats() + (size_t)depth * BAND_COUNT + b] =
+        a->extinction[((size_t)row * AERIAL_LONG + (size_t)depth) * BAND_COUNT + b] =
             (float)(sum / length_m);
     }
 }
@@ -195,17 +231,17 @@ static void march_row(struct aerial *a, struct aerial_worker *w, int row, double
     if (!ray_clip(optics, a->eye_radius_m, mu, &begin_m, &end_m, &hits_ground)) {
         end_m = begin_m + 1; // grazes the top: nothing there
     }
-    double bound_m[AERIAL_DEPTHS + 1];
+    double bound_m[AERIAL_LONG + 1];
     bound_m[0] = begin_m;
-    for (int d = 0; d < AERIAL_DEPTHS; d++) {
-        const double x = fmax(d, FIRST_DEPTH) / (AERIAL_DEPTHS - 1);
-        bound_m[d + 1] = begin_m + (end_m - begin_m) * x * x;
+    for (int d = 0; d < a->depths; d++) {
+        const double x = fmax(d, FIRST_DEPTH) / (a->depths - 1);
+        const double part = a->is_outside ? 1 - (1 - x) * (1 - x) : x * x;
+        bound_m[d + 1] = begin_m + (end_m - begin_m) * part;
     }
     const struct ray_desc desc = {.radius_m = a->eye_radius_m, .mu = mu};
-    ray_init_cells(&w->ray, optics, atm->solution.rules, &desc, bound_m, AERIAL_DEPTHS,
-                   NODES_PER_CELL);
-    fill_family(w, mu, sun_mu);
-    const struct transport_family family = {AERIAL_AZIMUTHS, w->sun_mu, w->nu};
+    ray_init_cells(&w->ray, optics, atm->solution.rules, &desc, bound_m, a->depths, NODES_PER_CELL);
+    fill_family(a, w, mu, sun_mu, hits_ground ? end_m : 0);
+    const struct transport_family family = {a->azimuths, w->sun_mu, w->nu};
     float *phase[MEDIUM_MAX_CONSTITUENTS];
     for (int i = 0; i < MEDIUM_MAX_CONSTITUENTS; i++) {
         phase[i] = w->phase[i];
@@ -214,7 +250,7 @@ static void march_row(struct aerial *a, struct aerial_worker *w, int row, double
         peaked_channels(&atm->peaked, optics, &family, phase);
     memset(w->radiance, 0, sizeof w->radiance);
     double column_m[MEDIUM_MAX_CONSTITUENTS] = {0};
-    for (int d = 0; d < AERIAL_DEPTHS; d++) {
+    for (int d = 0; d < a->depths; d++) {
         w->ray.first_node = d * NODES_PER_CELL;
         w->ray.node_count = (d + 1) * NODES_PER_CELL;
         add_cell(a, w, &family, &channels);
@@ -240,6 +276,9 @@ void aerial_update(struct aerial *aerial, double radius_m, double sun_mu)
     const double r = fmax(radius_m, ground + AERIAL_MIN_ALTITUDE_M);
     const double sine = ground / r;
     aerial->eye_radius_m = r;
+    aerial->is_outside = r > top;
+    aerial->depths = aerial->is_outside ? AERIAL_SHORT : AERIAL_LONG;
+    aerial->azimuths = aerial->is_outside ? AERIAL_LONG : AERIAL_SHORT;
     aerial->nearest_m = r - ground;
     aerial->farthest_m = sqrt((r - ground) * (r + ground));
     aerial->horizon_mu = -sqrt(1 - sine * sine);

@@ -13,12 +13,15 @@
 // For marching along the rays (sky/march.h) there is also, where it is asked for, the source: light
 // that each cell of a ray sends to the eye per metre, dimmed by the air before it, with the first
 // order apart from the others. The sources of all cells make what is scattered.
+//
+// From outside the sun's height changes from noon to night along a row, and the air is densest
+// where rays end. There the grid has more azimuths and fewer depths, both where light changes.
 
 #include "scatter/atmosphere.h"
 
 enum {
-    AERIAL_DEPTHS = 32,
-    AERIAL_AZIMUTHS = 16,
+    AERIAL_LONG = 32,  // depths of a ray; from outside azimuths
+    AERIAL_SHORT = 16, // azimuths; from outside depths
     AERIAL_GROUND_ROWS = 64,
     AERIAL_AIR_ROWS = 32,
     AERIAL_ROWS = AERIAL_GROUND_ROWS + AERIAL_AIR_ROWS,
@@ -31,8 +34,11 @@ struct aerial {
     double eye_radius_m;
     double nearest_m, farthest_m;           // of the rows on the ground: nadir, horizon
     double horizon_mu, highest_mu;          // of the rows above
-    float *scattered[1 + TABLE_MAX_PEAKED]; // [row][azimuth][depth][TEXEL_FLOATS]
-    float *extinction;                      // [row][depth][BAND_COUNT]
+    bool is_outside;                        // the air
+    int depths, azimuths;                   // 32 and 16; from outside 16 and 32
+    float *scattered[1 + TABLE_MAX_PEAKED]; // [row][azimuth][depth][TEXEL_FLOATS]; from outside
+                                            // [row][depth][azimuth][TEXEL_FLOATS]
+    float *extinction;                      // [row][AERIAL_LONG][BAND_COUNT], the first `depths`
     // Layout of `scattered`, depth d standing for the cell that ends at depth d: the first order in
     // its channels, and AERIAL_MULTIPLE, divided by the Rayleigh phase function. NULL: not asked
     // for

@@ -238,7 +238,7 @@ static void set_maps(const struct spectral *sky, struct gpu_program *program)
         program, "u_slice_texel",
         (struct vec3){1.0 / table->size.azimuths, 1.0 / table->size.suns, 1.0 / table->size.views});
     sky_set_vec3(program, "u_aerial_texel",
-                 (struct vec3){1.0 / AERIAL_DEPTHS, 1.0 / AERIAL_AZIMUTHS, 1.0 / AERIAL_ROWS});
+                 (struct vec3){1.0 / AERIAL_LONG, 1.0 / AERIAL_SHORT, 1.0 / AERIAL_ROWS});
     gpu_program_set_vec2(program, "u_aerial_rows", aerial_rows);
     sky_set_vec4(program, "u_rows", sky->maps.aerial.nearest_m, sky->maps.aerial.farthest_m,
                  sky->maps.aerial.horizon_mu, sky->maps.aerial.highest_mu);

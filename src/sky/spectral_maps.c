@@ -31,13 +31,13 @@ static trl_result make_maps(struct spectral_maps *maps)
 {
     const struct table *table = &maps->atmosphere->table;
     trl_result result =
-        make_texture(maps->gpu, "extinction", AERIAL_DEPTHS, AERIAL_ROWS, 1, &maps->extinction);
+        make_texture(maps->gpu, "extinction", AERIAL_LONG, AERIAL_ROWS, 1, &maps->extinction);
     for (int c = 0; c < table->channels && result == TRL_OK; c++) {
         result =
             make_texture(maps->gpu, "sky slice", (uint32_t)table->size.azimuths,
                          (uint32_t)table->size.suns, (uint32_t)table->size.views, &maps->slice[c]);
         if (result == TRL_OK) {
-            result = make_texture(maps->gpu, "aerial perspective", AERIAL_DEPTHS, AERIAL_AZIMUTHS,
+            result = make_texture(maps->gpu, "aerial perspective", AERIAL_LONG, AERIAL_SHORT,
                                   AERIAL_ROWS, &maps->scattered[c]);
         }
     }
@@ -127,8 +127,8 @@ trl_result spectral_maps_add_source(struct spectral_maps *maps)
     trl_result result = aerial_add_source(&maps->aerial);
     for (int c = 0; c < AERIAL_SOURCES && result == TRL_OK; c++) {
         if (maps->aerial.source[c] && !maps->source[c].name) {
-            result = make_texture(maps->gpu, "air source", AERIAL_DEPTHS, AERIAL_AZIMUTHS,
-                                  AERIAL_ROWS, &maps->source[c]);
+            result = make_texture(maps->gpu, "air source", AERIAL_LONG, AERIAL_SHORT, AERIAL_ROWS,
+                                  &maps->source[c]);
         }
     }
     maps->aerial_radius_m = 0; // made anew by the next update

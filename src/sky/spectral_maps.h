@@ -6,7 +6,8 @@
 //
 //     slice      3D RGBA32F  azimuth x sun x view, the 4D table at the eye's altitude; inside the
 //                            air only the first sun is there, the eye's own
-//     scattered  3D RGBA32F  depth x azimuth x row, light that the air adds per metre
+//     scattered  3D RGBA32F  depth x azimuth x row, light that the air adds per metre; from
+//                            outside azimuth x depth x row
 //     extinction 2D RGBA32F  depth x row, per metre
 //     sunlight   2D RGBA32F  sun x altitude, direct light on the ground
 //     skylight   2D RGBA32F  sun x altitude, irradiance of level ground by the sky

@@ -110,6 +110,29 @@ static void maps_agree(void **state)
     gpu_program_finish(&program);
 }
 
+static void maps_from_outside_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    gpu_program_set_float(&program, "u_wants_outside", 1);
+    const float distance[] = {1000, 1500, 90000, 700000, 1000000, 1133000};
+    const float mu[] = {-0.28f, -0.02f, 0, 0.2f, 1};
+    for (size_t i = 0; i < sizeof distance / sizeof distance[0]; i++) {
+        for (size_t j = 0; j < sizeof mu / sizeof mu[0]; j++) {
+            const float map[4] = {distance[i], 1133000, mu[j], 0};
+            gpu_program_set_vec4(&program, "u_map", map);
+            const struct texel got = draw(f, &program);
+            const double way = (double)distance[i];
+            const SkyMapSuns suns = sky_map_suns(7e6, way, 6.5e6, -0.4, (double)mu[j]);
+            assert_same_texel(got.rgba[0], sky_map_ground_row_outside(way, 1000, 1133000));
+            assert_same_texel(got.rgba[1], sky_map_depth_outside(way, 1000, 1133000));
+            assert_same_texel(got.rgba[2], suns.middle);
+            assert_same_texel(got.rgba[3], suns.reach);
+        }
+    }
+    gpu_program_finish(&program);
+}
+
 static void shadows_agree(void **state)
 {
     struct fixture *f = *state;
@@ -139,6 +162,7 @@ int main(void)
         cmocka_unit_test(phase_functions_agree),
         cmocka_unit_test(profiles_agree),
         cmocka_unit_test(maps_agree),
+        cmocka_unit_test(maps_from_outside_agree),
         cmocka_unit_test(shadows_agree),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);

@@ -119,18 +119,16 @@ static void write_failure(const struct fixture *f, const char *view, const char 
     fprintf(stderr, "left %s\n", path);
 }
 
-static void check_view(const struct fixture *f, const char *name)
+static void check(const struct fixture *f, const char *name, const trl_view *view)
 {
-    trl_view view;
-    assert_int_equal(trl_scene_view(f->scene, name, &view), TRL_OK);
     static float got[WIDTH * HEIGHT * 4];
     static float expected[WIDTH * HEIGHT * 4];
     static float difference[WIDTH * HEIGHT * 4];
     static float errors[WIDTH * HEIGHT];
-    assert_int_equal(trl_renderer_draw(f->renderer, &view, WIDTH, HEIGHT, 0), TRL_OK);
+    assert_int_equal(trl_renderer_draw(f->renderer, view, WIDTH, HEIGHT, 0), TRL_OK);
     assert_int_equal(trl_renderer_read_radiance(f->renderer, got), TRL_OK);
     const struct camera_place place = {.radius_m = f->scene->medium.ground_radius_m};
-    const struct camera camera = camera_resolve(&view, &place, (double)WIDTH / HEIGHT);
+    const struct camera camera = camera_resolve(view, &place, (double)WIDTH / HEIGHT);
     const double pixel_rad = 2 * camera.tan_half_fov_y / HEIGHT;
     size_t count = 0;
     for (int y = 0; y < HEIGHT; y++) {
@@ -168,6 +166,13 @@ static void check_view(const struct fixture *f, const char *name)
     assert_true(most < MOST_LIMIT);
 }
 
+static void check_view(const struct fixture *f, const char *name)
+{
+    trl_view view;
+    assert_int_equal(trl_scene_view(f->scene, name, &view), TRL_OK);
+    check(f, name, &view);
+}
+
 static void day_from_the_ground(void **state)
 {
     check_view(*state, "ground");
@@ -193,12 +198,24 @@ static void full_disc_from_afar(void **state)
     check_view(*state, "full-disc");
 }
 
+// Along the terminator light falls by factors from one azimuth to the next.
+static void half_disc_from_afar(void **state)
+{
+    const struct fixture *f = *state;
+    trl_view view;
+    assert_int_equal(trl_scene_view(f->scene, "full-disc", &view), TRL_OK);
+    view.sun_mode = TRL_SUN_SUBSOLAR;
+    view.sun_latitude_or_elevation_rad = 0.17;
+    view.sun_longitude_or_azimuth_rad = 1.05;
+    check(f, "half-disc", &view);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(day_from_the_ground),      cmocka_unit_test(sunset_from_the_ground),
         cmocka_unit_test(twilight_from_the_ground), cmocka_unit_test(limb_from_orbit),
-        cmocka_unit_test(full_disc_from_afar),
+        cmocka_unit_test(full_disc_from_afar),      cmocka_unit_test(half_disc_from_afar),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -12,7 +12,7 @@
 uniform vec4 u_rows;         // nearest, farthest, horizon mu, highest mu
 uniform vec4 u_sun_grid;     // centre, width, first, last: see sky_map_sun
 uniform vec3 u_slice_texel;  // 1 over azimuths, suns, views
-uniform vec3 u_aerial_texel; // 1 over depths, azimuths, rows
+uniform vec3 u_aerial_texel; // 1 over texels of u_scattered: see air_map
 uniform vec2 u_aerial_rows;  // on the ground, in all
 
 uniform sampler3D u_slice0;
@@ -38,10 +38,15 @@ uniform sampler3D u_share; // see sky/march.h
 uniform vec4 u_march;      // nearest and farthest distance, layers that end at a distance
 #endif
 
-float azimuth_coordinate(float mu, float sun_mu, float nu)
+float azimuth_cosine(float mu, float sun_mu, float nu)
 {
     float sines = sqrt(max((1.0 - mu * mu) * (1.0 - sun_mu * sun_mu), 1.0e-12));
-    return sky_map_azimuth(clamp((nu - mu * sun_mu) / sines, -1.0, 1.0));
+    return clamp((nu - mu * sun_mu) / sines, -1.0, 1.0);
+}
+
+float sun_coordinate(float sun_mu)
+{
+    return sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w);
 }
 
 // From [0, 1] to the centres of the first and the last texel; `texel` is 1 over their number.
@@ -124,9 +129,8 @@ vec3 sky_light(Ray ray)
     float longest = (outside ? u_planet.z : rise) + u_planet.z;
     float view = sky_map_view(way, shortest, longest);
     // Inside, the slice has one sun.
-    float sun =
-        outside ? sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w) : 0.0;
-    vec3 at = vec3(centre(azimuth_coordinate(mu, sun_mu, ray.nu), u_slice_texel.x),
+    float sun = outside ? sun_coordinate(sun_mu) : 0.0;
+    vec3 at = vec3(centre(sky_map_azimuth(azimuth_cosine(mu, sun_mu, ray.nu)), u_slice_texel.x),
                    centre(sun, u_slice_texel.y), centre(view, u_slice_texel.z));
     return ray.chord_m > 0.0 ? join_slice(at, ray.nu) : vec3(0.0);
 }
@@ -134,11 +138,48 @@ vec3 sky_light(Ray ray)
 // The row of a ray in the maps of aerial perspective, as a texture coordinate.
 float aerial_row(Ray ray)
 {
-    float row = ray.meets_ground
-                    ? sky_map_ground_row(ray.ground_m, u_rows.x, u_rows.y) * (u_aerial_rows.x - 1.0)
-                    : u_aerial_rows.x + sky_map_air_row(ray.mu, u_rows.z, u_rows.w) *
-                                            (u_aerial_rows.y - u_aerial_rows.x - 1.0);
+    float ground = u_eye.w > 0.5 ? sky_map_ground_row_outside(ray.ground_m, u_rows.x, u_rows.y)
+                                 : sky_map_ground_row(ray.ground_m, u_rows.x, u_rows.y);
+    float row = ray.meets_ground ? ground * (u_aerial_rows.x - 1.0)
+                                 : u_aerial_rows.x + sky_map_air_row(ray.mu, u_rows.z, u_rows.w) *
+                                                         (u_aerial_rows.y - u_aerial_rows.x - 1.0);
     return (row + 0.5) * u_aerial_texel.z;
+}
+
+// Its azimuth there, in [0, 1].
+float aerial_azimuth(Ray ray)
+{
+    float cosine = azimuth_cosine(ray.mu, u_eye.z, ray.nu);
+    float along = -u_eye.x * ray.mu;
+    float place = ray.meets_ground ? u_planet.x : u_eye.x * sqrt(max(1.0 - ray.mu * ray.mu, 0.0));
+    SkyMapSuns suns =
+        sky_map_suns(u_eye.x, ray.meets_ground ? ray.ground_m : along, place, ray.mu, u_eye.z);
+    float lowest = sun_coordinate(suns.middle - suns.reach);
+    float highest = sun_coordinate(suns.middle + suns.reach);
+    float here = sun_coordinate(suns.middle + suns.reach * cosine);
+    return u_eye.w > 0.5 ? clamp((here - lowest) / max(highest - lowest, 1.0e-6), 0.0, 1.0)
+                         : sky_map_azimuth(cosine);
+}
+
+// A distance's place on its ray, in [0, 1].
+float air_depth(Ray ray, float distance_m)
+{
+    return u_eye.w > 0.5 ? sky_map_depth_outside(distance_m, ray.begin_m, ray.end_m)
+                         : sky_map_depth(distance_m, ray.begin_m, ray.end_m);
+}
+
+// The places of u_scattered: depth x azimuth x row, from outside azimuth x depth x row.
+vec3 air_map(float depth, float azimuth, float row)
+{
+    vec2 at = u_eye.w > 0.5 ? vec2(azimuth, depth) : vec2(depth, azimuth);
+    return vec3(centre(at.x, u_aerial_texel.x), centre(at.y, u_aerial_texel.y), row);
+}
+
+// Of u_extinction: depth x row, from outside in the first of its columns.
+float extinction_map(float depth)
+{
+    float columns = u_eye.w > 0.5 ? u_aerial_texel.x / u_aerial_texel.y : 1.0;
+    return mix(0.5 * u_aerial_texel.x, columns - 0.5 * u_aerial_texel.x, depth);
 }
 
 struct Air {
@@ -149,14 +190,13 @@ struct Air {
 // The air between the eye and a point at `distance_m` on the ray.
 Air air_before(Ray ray, float distance_m)
 {
-    float depth = sky_map_depth(distance_m, ray.begin_m, ray.end_m);
-    float azimuth = azimuth_coordinate(ray.mu, u_eye.z, ray.nu);
-    vec3 at =
-        vec3(centre(depth, u_aerial_texel.x), centre(azimuth, u_aerial_texel.y), aerial_row(ray));
+    float depth = air_depth(ray, distance_m);
+    vec3 at = air_map(depth, aerial_azimuth(ray), aerial_row(ray));
     float way = clamp(distance_m, ray.begin_m, max(ray.end_m * 1.2, distance_m)) - ray.begin_m;
     Air air;
     air.scattered = join_scattered(at, ray.nu) * way;
-    air.transmittance = exp(-textureLod(u_extinction, at.xz, 0.0) * way);
+    air.transmittance =
+        exp(-textureLod(u_extinction, vec2(extinction_map(depth), at.z), 0.0) * way);
     return air;
 }
 

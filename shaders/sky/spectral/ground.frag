@@ -58,7 +58,7 @@ vec4 light_ground(Ray ray, Ground ground)
     float lowest = sky_map_lowest_sun(u_planet.x, ground.altitude_m, u_disc.x, u_disc.y);
     float sun = sky_map_sunlight(sun_mu, lowest, u_ground_light.z);
     vec4 star = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
-    float day = sky_map_sun(sun_mu, u_sun_grid.x, u_sun_grid.y, u_sun_grid.z, u_sun_grid.w);
+    float day = sun_coordinate(sun_mu);
     vec4 sky = exp(textureLod(u_skylight, vec2(centre(day, u_light_texel.y), altitude), 0.0));
     // A slope sees a part of the sky, and for the rest the ground around it.
     float open = 0.5 + 0.5 * dot(ground.normal, up);

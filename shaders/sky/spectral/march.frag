@@ -49,8 +49,9 @@ struct Source {
 Source source_at(Ray ray, float azimuth, float row, float distance_m)
 {
     // Texel d is the middle of the cell between depths d - 1 and d.
-    float depth = sky_map_depth(distance_m, ray.begin_m, ray.end_m);
-    vec3 at = vec3(mix(u_aerial_texel.x, 1.0, depth), azimuth, row);
+    float depth = air_depth(ray, distance_m);
+    float texel = u_eye.w > 0.5 ? u_aerial_texel.y : u_aerial_texel.x;
+    vec3 at = air_map((mix(texel, 1.0, depth) - 0.5 * texel) / (1.0 - texel), azimuth, row);
     float smooth_phase = phase_rayleigh(ray.nu);
     Source source;
     source.first = exp(textureLod(u_source0, at, 0.0).xyz) * smooth_phase;
@@ -120,7 +121,7 @@ void main()
     float end = min(ray.end_m, lit.w);
     float from = clamp(u_step.x, ray.begin_m, max(end, ray.begin_m));
     float to = clamp(u_step.y, from, max(end, from));
-    float azimuth = centre(azimuth_coordinate(ray.mu, u_eye.z, ray.nu), u_aerial_texel.y);
+    float azimuth = aerial_azimuth(ray);
     float row = aerial_row(ray);
 #ifdef TO_SPACE
     for (int i = 0; i < SPACE_PARTS; i++) {

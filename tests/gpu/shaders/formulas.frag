@@ -11,6 +11,7 @@ uniform vec4 u_shell; // altitude, scale height, centre, half width
 uniform vec4 u_map;   // distance, its largest, cosine of a zenith angle, altitude
 uniform float u_wants_profile;
 uniform float u_wants_map;
+uniform float u_wants_outside;
 uniform float u_wants_shadow;
 layout(location = 0) out vec4 o_color;
 
@@ -26,7 +27,11 @@ void main()
         vec4(sky_map_view(u_map.x, 1000.0, u_map.y), sky_map_sun(u_map.z, -0.07, 0.07, -2.0, 3.4),
              sky_map_sunlight(u_map.z, lowest, 0.01), sky_map_depth(u_map.x, 1000.0, u_map.y));
     vec4 shadows = vec4(penumbra_visible(u_angle.x), penumbra_mean(u_angle.x, u_angle.y), 0.0, 0.0);
-    o_color = u_wants_shadow > 0.5 ? shadows
-              : u_wants_map > 0.5  ? maps
-                                   : (u_wants_profile > 0.5 ? profiles : phases);
+    SkyMapSuns suns = sky_map_suns(7.0e6, u_map.x, 6.5e6, -0.4, u_map.z);
+    vec4 outside = vec4(sky_map_ground_row_outside(u_map.x, 1000.0, u_map.y),
+                        sky_map_depth_outside(u_map.x, 1000.0, u_map.y), suns.middle, suns.reach);
+    o_color = u_wants_outside > 0.5  ? outside
+              : u_wants_shadow > 0.5 ? shadows
+              : u_wants_map > 0.5    ? maps
+                                     : (u_wants_profile > 0.5 ? profiles : phases);
 }
