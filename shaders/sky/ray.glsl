@@ -22,6 +22,7 @@ struct Ray {
     vec3 direction;
     float mu, nu;         // cosines of the angles to the zenith and to the star
     bool meets_ground;    // of the reference sphere
+    float inside_m2;      // square of half the chord in it, below 0 where the line passes by
     float ground_m;       // distance to it, where it is met
     float begin_m, end_m; // of the part in the air, as if it ended at the sphere
     float chord_m;        // half of the whole way through the air, from outside
@@ -44,6 +45,7 @@ Ray make_ray(vec3 direction)
         outside ? (ground - pass) * (ground + pass) : along * along - h * (2.0 * ground + h);
     float to_top = outside ? (top - pass) * (top + pass)
                            : along * along + (u_planet.y - h) * (2.0 * ground + u_planet.y + h);
+    ray.inside_m2 = to_ground;
     ray.meets_ground = along < 0.0 && to_ground > 0.0;
     // The nearer root without cancellation: the product of both is h (2 R + h).
     ray.ground_m = h * (2.0 * ground + h) / (sqrt(max(to_ground, 0.0)) - min(along, -1.0e-3));

@@ -20,6 +20,9 @@ static trl_result make_passes(struct frame *frame, const struct frame_desc *desc
     const struct medium *medium = &frame->scene->medium;
     trl_result result = trl_progress(frame->ctx, "building programs", 0);
     if (result == TRL_OK) {
+        result = edges_init(frame->gpu, &frame->edges);
+    }
+    if (result == TRL_OK) {
         result = exposure_init(frame->gpu, daylight_meter_wall_cd_m2(medium), &frame->exposure);
     }
     if (result == TRL_OK) {
@@ -133,6 +136,7 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
 
 static void finish_targets(struct frame *frame)
 {
+    edges_forget(&frame->edges);
     gpu_target_finish(&frame->radiance_target);
     gpu_target_finish(&frame->picture_target);
     gpu_texture_finish(&frame->radiance);
@@ -148,6 +152,7 @@ void frame_finish(struct frame *frame)
         frame_clock_finish(&frame->clock);
         tone_finish(&frame->tone);
         exposure_finish(&frame->exposure);
+        edges_finish(&frame->edges);
         for (int m = 0; m < SKY_MODELS; m++) {
             sky_finish(&frame->skies[m]);
         }
@@ -177,8 +182,10 @@ static trl_result make_radiance(struct frame *frame, uint32_t width, uint32_t he
                                            .color_count = 1,
                                            .colors[0].texture = &frame->radiance,
                                            .depth.texture = &frame->kinds};
-    return result == TRL_OK ? gpu_target_init(frame->gpu, &target, &frame->radiance_target)
-                            : result;
+    if (result == TRL_OK) {
+        result = gpu_target_init(frame->gpu, &target, &frame->radiance_target);
+    }
+    return result == TRL_OK ? edges_resize(&frame->edges, &frame->kinds) : result;
 }
 
 static trl_result make_picture(struct frame *frame, uint32_t width, uint32_t height)
@@ -253,6 +260,14 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "stars");
         result = space_draw(&frame->space, &view, sidereal_rad);
+    }
+    if (result == TRL_OK) {
+        const struct edges_source source = {.view = &view,
+                                            .radiance = &frame->radiance,
+                                            .ground_radius_m = frame->medium.ground_radius_m,
+                                            .top_radius_m = frame->medium.top_radius_m};
+        frame_clock_part(&frame->clock, "edges");
+        result = edges_draw(&frame->edges, &source);
     }
     return result;
 }

@@ -7,6 +7,7 @@
 //     ground    -> position, depth, albedo, normal, lights      src/terrain
 //     sky       -> radiance: ground lit, air, sun               src/sky
 //     stars     -> radiance: what is beyond the air, added      src/sky/space.h
+//     edges     -> radiance: silhouettes made smooth            edges.h
 //     exposure  -> EV100 and factor                             exposure.h
 //     tone      -> picture                                      tone.h
 //
@@ -16,6 +17,7 @@
 // Rows run from the bottom to the top, as GL has them.
 
 #include "frame/clock.h"
+#include "frame/edges.h"
 #include "frame/exposure.h"
 #include "frame/ground.h"
 #include "frame/tone.h"
@@ -48,6 +50,7 @@ struct frame {
     trl_air air;
     uint32_t wavelengths, orders;
     trl_rayleigh_desc rayleigh;
+    struct edges edges;
     struct exposure exposure;
     struct tone tone;
     struct frame_clock clock;
