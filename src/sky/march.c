@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "sky/march.h"
 
+#include "sky/eclipse.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -46,7 +48,7 @@ void sky_march_finish(struct sky_march *march)
 }
 
 static trl_result make_program(struct sky_march *m, const char *fragment,
-                               const char *const defines[3], struct gpu_program *out)
+                               const char *const defines[4], struct gpu_program *out)
 {
     size_t count = 0;
     while (count < 3 && defines[count]) {
@@ -59,29 +61,36 @@ static trl_result make_program(struct sky_march *m, const char *fragment,
     return gpu_program_init(m->gpu, &desc, out);
 }
 
-static trl_result make_programs(struct sky_march *m, int peaked_count, bool is_bare)
+static trl_result make_programs(struct sky_march *m, const struct sky_march_source *source,
+                                bool is_bare)
 {
-    if (m->is_made && m->is_bare == is_bare) {
+    if (m->is_made && m->is_bare == is_bare && m->has_eclipse == source->has_eclipse) {
         return TRL_OK;
     }
     finish_programs(m);
     char peaked[32];
-    snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", peaked_count);
+    snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", source->peaked_count);
     const char *const surface = is_bare ? NULL : "SURFACE";
+    const char *const eclipse = source->has_eclipse ? "ECLIPSE" : NULL;
     const char *const march = "sky/spectral/march.frag";
     trl_result result = make_program(m, "sky/spectral/march_begin.frag",
-                                     (const char *const[3]){surface}, &m->begin);
+                                     (const char *const[4]){surface}, &m->begin);
     if (result == TRL_OK) {
-        result = make_program(m, march, (const char *const[3]){peaked, surface}, &m->step);
-    }
-    if (result == TRL_OK) {
-        result = make_program(m, march, (const char *const[3]){peaked, "TO_SPACE"}, &m->space);
+        result = make_program(
+            m, march,
+            (const char *const[4]){peaked, surface ? surface : eclipse, surface ? eclipse : NULL},
+            &m->step);
     }
     if (result == TRL_OK) {
         result =
-            make_program(m, "sky/spectral/march_fill.frag", (const char *const[3]){NULL}, &m->fill);
+            make_program(m, march, (const char *const[4]){peaked, "TO_SPACE", eclipse}, &m->space);
+    }
+    if (result == TRL_OK) {
+        result =
+            make_program(m, "sky/spectral/march_fill.frag", (const char *const[4]){NULL}, &m->fill);
     }
     m->is_bare = is_bare;
+    m->has_eclipse = source->has_eclipse;
     m->is_made = result == TRL_OK;
     return result;
 }
@@ -210,6 +219,9 @@ static void set_program(struct sky_march *m, const struct sky_march_source *sour
 {
     sky_pixels_set_view(source->pixels, program, view);
     source->set_maps(source->self, program);
+    if (m->has_eclipse) {
+        sky_eclipse_set(source->pixels, program, view->camera, source->spread_m);
+    }
     if (!m->is_bare) {
         view->shadow.bind(view->shadow.self, view->camera, program);
     }
@@ -218,7 +230,7 @@ static void set_program(struct sky_march *m, const struct sky_march_source *sour
 trl_result sky_march_draw(struct sky_march *m, const struct sky_march_source *source,
                           const struct sky_view *view)
 {
-    trl_result result = make_programs(m, source->peaked_count, sky_view_is_bare(view));
+    trl_result result = make_programs(m, source, sky_view_is_bare(view));
     if (result == TRL_OK) {
         result = fit_maps(m, view->target);
     }

@@ -24,7 +24,7 @@ struct sky_march {
     struct gpu *gpu;
     double top_radius_m, ground_radius_m;
     bool is_made; // with the programs for:
-    bool is_bare;
+    bool is_bare, has_eclipse;
     struct gpu_program begin, step, space, fill;
     struct gpu_texture lit[2], all[2], steps, share; // of the last picture's size
     struct gpu_target sums[2], layer;
@@ -42,6 +42,8 @@ struct sky_march_source {
     // Sets the uniforms of spectral/air.glsl and the sources.
     void (*set_maps)(const void *self, struct gpu_program *program);
     const void *self;
+    bool has_eclipse; // see eclipse.h
+    double spread_m;
 };
 
 // Makes the shares of a picture. TRL_ERROR_GPU, TRL_ERROR_MEMORY.

@@ -3,6 +3,7 @@
 // The spectral model: all orders of scattering, solved once (scatter/), looked up per pixel.
 // The maps are in spectral_maps.h; here they are drawn with.
 #include "scatter/resolver.h"
+#include "sky/eclipse.h"
 #include "sky/ground_light.h"
 #include "sky/march.h"
 #include "sky/pixels.h"
@@ -23,7 +24,9 @@ struct spectral {
     struct gpu *gpu;
     struct spectral_maps maps;
     struct sky_pixels pixels;
-    struct spectral_programs programs[TRL_AIR_MARCH + 1]; // by trl_air; made when first asked for
+    // By trl_air and whether there is an eclipse; made when first asked for.
+    struct spectral_programs programs[TRL_AIR_MARCH + 1][2];
+    double spread_m; // of scattered light, see eclipse.h
     struct sky_march march;
     struct atmosphere_desc desc;
     struct resolver *resolver; // of a medium that was changed to, or NULL
@@ -37,8 +40,8 @@ static const char *const SOURCE_NAMES[] = {"u_source0", "u_source1", "u_source2"
 
 static void finish_programs(struct spectral *sky)
 {
-    for (int air = TRL_AIR_TABLE; air <= TRL_AIR_MARCH; air++) {
-        struct spectral_programs *programs = &sky->programs[air];
+    for (int i = 0; i < 2 * (TRL_AIR_MARCH + 1); i++) {
+        struct spectral_programs *programs = &sky->programs[i / 2][i % 2];
         gpu_program_finish(&programs->air);
         gpu_program_finish(&programs->star);
         gpu_program_finish(&programs->ground_bare);
@@ -47,24 +50,32 @@ static void finish_programs(struct spectral *sky)
     }
 }
 
+// What a picture has beside the air of the tables.
+struct shades {
+    bool has_march, has_eclipse;
+};
+
 struct variant {
     struct gpu_program *program;
     const char *fragment;
     const char *define;
 };
 
-static trl_result make_program(const struct spectral *sky, trl_air air,
+static trl_result make_program(const struct spectral *sky, struct shades shades,
                                const struct variant *variant)
 {
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", sky->maps.atmosphere->peaked.count);
-    const char *defines[3] = {peaked};
+    const char *defines[4] = {peaked};
     size_t count = 1;
     if (variant->define) {
         defines[count++] = variant->define;
     }
-    if (air == TRL_AIR_MARCH) {
+    if (shades.has_march) {
         defines[count++] = "MARCH";
+    }
+    if (shades.has_eclipse) {
+        defines[count++] = "ECLIPSE";
     }
     const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
                                           .fragment = variant->fragment,
@@ -74,9 +85,9 @@ static trl_result make_program(const struct spectral *sky, trl_air air,
     return gpu_program_init(sky->gpu, &desc, variant->program);
 }
 
-static trl_result make_programs(struct spectral *sky, trl_air air)
+static trl_result make_programs(struct spectral *sky, struct shades shades)
 {
-    struct spectral_programs *p = &sky->programs[air];
+    struct spectral_programs *p = &sky->programs[shades.has_march][shades.has_eclipse];
     const struct variant variants[] = {
         {&p->air, "sky/spectral/sky.frag", NULL},
         {&p->star, "sky/spectral/sky.frag", "STAR"},
@@ -85,7 +96,7 @@ static trl_result make_programs(struct spectral *sky, trl_air air)
     };
     trl_result result = TRL_OK;
     for (size_t i = 0; i < sizeof variants / sizeof *variants && result == TRL_OK; i++) {
-        result = make_program(sky, air, &variants[i]);
+        result = make_program(sky, shades, &variants[i]);
     }
     p->is_made = result == TRL_OK;
     return result;
@@ -106,8 +117,9 @@ static trl_result init(const struct sky_desc *desc, struct spectral *sky)
         result = sky_pixels_init(desc, disc_rad, &sky->pixels);
     }
     if (result == TRL_OK) {
+        sky->spread_m = sky_eclipse_spread(sky->maps.atmosphere->optics);
         sky_march_init(&sky->pixels, &sky->march);
-        result = make_programs(sky, TRL_AIR_TABLE);
+        result = make_programs(sky, (struct shades){0});
     }
     return result;
 }
@@ -165,11 +177,12 @@ static trl_result adopt_solved(struct spectral *sky)
     spectral_maps_finish(&sky->maps);
     sky->maps = maps;
     sky->pixels.top_radius_m = maps.atmosphere->optics->top_radius_m;
+    sky->spread_m = sky_eclipse_spread(maps.atmosphere->optics);
     sky_march_finish(&sky->march);
     sky_march_init(&sky->pixels, &sky->march);
     if (!has_programs) {
         finish_programs(sky);
-        result = make_programs(sky, TRL_AIR_TABLE);
+        result = make_programs(sky, (struct shades){0});
     }
     return result;
 }
@@ -193,14 +206,25 @@ static bool spectral_is_settled(const void *self)
     return !sky->resolver;
 }
 
-// What marching needs more than the tables.
-static trl_result prepare_march(struct spectral *sky)
+// A bare sphere has no terrain that shades the air.
+static struct shades find_shades(const struct spectral *sky, const struct sky_view *view)
 {
+    const bool has_eclipse = sky_eclipse_find(&sky->pixels, view->camera) >= 0;
+    return (struct shades){.has_march = view->air == TRL_AIR_MARCH &&
+                                        (has_eclipse || !sky_view_is_bare(view)),
+                           .has_eclipse = has_eclipse};
+}
+
+// What shadows need more than the tables.
+static trl_result prepare_shades(struct spectral *sky, const struct sky_view *view)
+{
+    const struct shades shades = find_shades(sky, view);
     trl_result result = TRL_OK;
-    if (!sky->programs[TRL_AIR_MARCH].is_made) {
-        result = make_programs(sky, TRL_AIR_MARCH);
+    if (!sky->programs[shades.has_march][shades.has_eclipse].is_made) {
+        result = make_programs(sky, shades);
     }
-    return result == TRL_OK ? spectral_maps_add_source(&sky->maps) : result;
+    return result == TRL_OK && view->air == TRL_AIR_MARCH ? spectral_maps_add_source(&sky->maps)
+                                                          : result;
 }
 
 static trl_result spectral_prepare(void *self, const struct sky_view *view)
@@ -211,8 +235,8 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
     const double sun_mu = vec3_dot(vec3_normalize(camera->position_m), camera->sun_direction);
     const struct spectral_eye eye = {radius_m, sun_mu, view->highest_m};
     trl_result result = adopt_solved(sky);
-    if (result == TRL_OK && view->air == TRL_AIR_MARCH) {
-        result = prepare_march(sky);
+    if (result == TRL_OK) {
+        result = prepare_shades(sky, view);
     }
     return result == TRL_OK ? spectral_maps_update(&sky->maps, &eye) : result;
 }
@@ -268,18 +292,14 @@ static void set_sources(const void *self, struct gpu_program *program)
     }
 }
 
-// A bare sphere has nothing that shades the air.
-static bool has_shadows(const struct sky_view *view)
-{
-    return view->air == TRL_AIR_MARCH && !sky_view_is_bare(view);
-}
-
 static trl_result draw_shares(struct spectral *sky, const struct sky_view *view)
 {
     const struct sky_march_source source = {.pixels = &sky->pixels,
                                             .peaked_count = sky->maps.atmosphere->peaked.count,
                                             .set_maps = set_sources,
-                                            .self = sky};
+                                            .self = sky,
+                                            .has_eclipse = find_shades(sky, view).has_eclipse,
+                                            .spread_m = sky->spread_m};
     return sky_march_draw(&sky->march, &source, view);
 }
 
@@ -291,8 +311,12 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
                   view->surface.lights_cd_m2);
     set_xyz(program);
     set_maps(sky, program);
-    if (has_shadows(view)) {
+    const struct shades shades = find_shades(sky, view);
+    if (shades.has_march) {
         sky_march_bind(&sky->march, program);
+    }
+    if (shades.has_eclipse) {
+        sky_eclipse_set(&sky->pixels, program, view->camera, sky->spread_m);
     }
     return sky_pixels_draw(&sky->pixels, program, kind, view);
 }
@@ -300,11 +324,11 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
 static trl_result spectral_draw(void *self, const struct sky_view *view)
 {
     struct spectral *sky = self;
-    struct spectral_programs *programs =
-        &sky->programs[has_shadows(view) ? TRL_AIR_MARCH : TRL_AIR_TABLE];
+    const struct shades shades = find_shades(sky, view);
+    struct spectral_programs *programs = &sky->programs[shades.has_march][shades.has_eclipse];
     struct gpu_program *ground =
         sky_view_is_bare(view) ? &programs->ground_bare : &programs->ground_surface;
-    trl_result result = has_shadows(view) ? draw_shares(sky, view) : TRL_OK;
+    trl_result result = shades.has_march ? draw_shares(sky, view) : TRL_OK;
     if (result == TRL_OK) {
         result = sky_pixels_sort(&sky->pixels, view);
     }

@@ -6,10 +6,15 @@
 // validate: PEAKED_COUNT 0
 // validate: PEAKED_COUNT 3; SURFACE
 // validate: PEAKED_COUNT 1; SURFACE; MARCH
+// validate: PEAKED_COUNT 1; SURFACE; MARCH; ECLIPSE
+// validate: PEAKED_COUNT 1; ECLIPSE
 
 #include "sky/ground.glsl"
 #include "sky/spectral/air.glsl"
 #include "sky/spectral/colour.glsl"
+#ifdef ECLIPSE
+#include "sky/eclipse.glsl"
+#endif
 
 uniform vec4 u_ground_light; // lowest and highest tabulated altitude, softness, 1 over altitudes
 uniform vec2 u_light_texel;  // 1 over suns in u_sunlight, in u_skylight
@@ -60,6 +65,10 @@ vec4 light_ground(Ray ray, Ground ground)
     vec4 star = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
     float day = sun_coordinate(sun_mu);
     vec4 sky = exp(textureLod(u_skylight, vec2(centre(day, u_light_texel.y), altitude), 0.0));
+#ifdef ECLIPSE
+    star *= star_left(ray.direction * ground.distance_m);
+    sky *= sky_left(ray.direction * ground.distance_m);
+#endif
     // A slope sees a part of the sky, and for the rest the ground around it.
     float open = 0.5 + 0.5 * dot(ground.normal, up);
     float height = visible_height(sun_mu, u_disc.y);

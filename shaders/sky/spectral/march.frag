@@ -10,8 +10,13 @@
 // validate: PEAKED_COUNT 1; SURFACE
 // validate: PEAKED_COUNT 0
 // validate: PEAKED_COUNT 3; SURFACE; TO_SPACE
+// validate: PEAKED_COUNT 1; ECLIPSE
+// validate: PEAKED_COUNT 1; TO_SPACE; ECLIPSE
 
 #include "sky/spectral/air.glsl"
+#ifdef ECLIPSE
+#include "sky/eclipse.glsl"
+#endif
 #ifdef SURFACE
 #include "terrain/shadow.glsl"
 #endif
@@ -40,7 +45,11 @@ layout(location = 2) out vec4 out_share; // of XYZ; alpha: as above
 // The terrain's edge is looked for at this many places of a step; between them it is straight.
 const int SHADOW_PARTS = 4;
 // Of what is left of the way into space.
+#ifdef ECLIPSE
+const int SPACE_PARTS = 32;
+#else
 const int SPACE_PARTS = 8;
+#endif
 
 struct Source {
     vec3 first, multiple; // XYZ per m
@@ -113,6 +122,17 @@ vec2 terrain_leaves(Ray ray, float from_m, float to_m)
 }
 #endif
 
+// Light that a place of a ray sends to the eye with the star behind a body.
+Source eclipsed(Ray ray, Source source, float distance_m)
+{
+#ifdef ECLIPSE
+    vec3 place = ray.direction * distance_m;
+    source.first *= star_left(place);
+    source.multiple *= sky_left(place);
+#endif
+    return source;
+}
+
 void main()
 {
     Ray ray = make_pixel_ray(v_uv);
@@ -128,8 +148,10 @@ void main()
         float x = float(i) / float(SPACE_PARTS);
         float y = float(i + 1) / float(SPACE_PARTS);
         float width = (to - from) * (y * y - x * x);
-        Source source = source_at(ray, azimuth, row, from + (to - from) * 0.5 * (x * x + y * y));
-        lit.xyz += (source.first + source.multiple) * width;
+        float middle = from + (to - from) * 0.5 * (x * x + y * y);
+        Source source = source_at(ray, azimuth, row, middle);
+        Source left = eclipsed(ray, source, middle);
+        lit.xyz += (left.first + left.multiple) * width;
         all += (source.first + source.multiple) * width;
     }
 #else
@@ -138,7 +160,8 @@ void main()
     leaves = terrain_leaves(ray, from, to);
 #endif
     Source source = source_at(ray, azimuth, row, 0.5 * (from + to));
-    lit.xyz += (source.first * leaves.x + source.multiple * leaves.y) * (to - from);
+    Source left = eclipsed(ray, source, 0.5 * (from + to));
+    lit.xyz += (left.first * leaves.x + left.multiple * leaves.y) * (to - from);
     all += (source.first + source.multiple) * (leaves.y * (to - from));
 #endif
     out_lit = lit;

@@ -5,10 +5,14 @@
 // validate: PEAKED_COUNT 0; STAR
 // validate: PEAKED_COUNT 3; STAR
 // validate: PEAKED_COUNT 1; MARCH
+// validate: PEAKED_COUNT 1; STAR; MARCH; ECLIPSE
 
 #include "sky/disc.glsl"
 #include "sky/spectral/air.glsl"
 #include "sky/spectral/colour.glsl"
+#ifdef ECLIPSE
+#include "sky/eclipse.glsl"
+#endif
 
 in vec2 v_uv;
 
@@ -22,6 +26,10 @@ void main()
     vec4 bands = vec4(0.0);
 #ifdef STAR
     bands = star_disc(ray) * air_before(ray, ray.end_m).transmittance;
+#ifdef ECLIPSE
+    // A covered star does not shine through edges that are softer than its rim is wide.
+    bands *= star_left(vec3(0.0)) > 0.0 ? body_leaves(ray) : 0.0;
+#endif
 #endif
     vec3 light = sky_light(ray);
 #ifdef MARCH
