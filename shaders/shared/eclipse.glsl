@@ -46,32 +46,4 @@ SHARED_FN Number eclipse_shadow(Length across, Length along, Length radius_m, An
     return eclipse_visible(apart / star_rad, body / star_rad);
 }
 
-// Sum over eight places around one: `x` to the axis, at the distance `reach`.
-SHARED_FN Number eclipse_ring(Length x, Length reach, Length along, Length radius_m, Angle star_rad)
-{
-    Length aslant = sqrt(0.5) * reach;
-    return (eclipse_shadow(shared_abs(x - reach), along, radius_m, star_rad) +
-            eclipse_shadow(x + reach, along, radius_m, star_rad) +
-            2.0 * eclipse_shadow(sqrt((x - aslant) * (x - aslant) + aslant * aslant), along,
-                                 radius_m, star_rad) +
-            2.0 * eclipse_shadow(sqrt((x + aslant) * (x + aslant) + aslant * aslant), along,
-                                 radius_m, star_rad) +
-            2.0 * eclipse_shadow(sqrt(x * x + reach * reach), along, radius_m, star_rad)) *
-           0.125;
-}
-
-// Mean of the visible part over a Gaussian of standard deviation `spread` across the axis: in
-// u = r^2 / (2 spread^2) its weight is exp(-u), which five nodes of Gauss and Laguerre integrate.
-SHARED_FN Number eclipse_shadow_mean(Length across, Length along, Length radius_m, Angle star_rad,
-                                     Length spread)
-{
-    Length x = across;
-    Length s = 1.41421356 * spread;
-    return 0.521755610583 * eclipse_ring(x, s * 0.51338125, along, radius_m, star_rad) +
-           0.398666811083 * eclipse_ring(x, s * 1.18886631, along, radius_m, star_rad) +
-           0.075942449682 * eclipse_ring(x, s * 1.89642453, along, radius_m, star_rad) +
-           0.003611758679 * eclipse_ring(x, s * 2.66191848, along, radius_m, star_rad) +
-           0.000023369973 * eclipse_ring(x, s * 3.55539038, along, radius_m, star_rad);
-}
-
 #endif // SHARED_ECLIPSE_GLSL

@@ -9,7 +9,7 @@
 
 // Pixels of the picture to a cell of the grid, each way: half a degree of a usual view. No shadow
 // in the air has a sharper edge than the star is wide, save one that is looked at along its length.
-enum { CELL = 8 };
+enum { CELL = 8, FINEST_CELL = 3, UMBRA_CELLS = 5 };
 static const double SKY_M = 1e29; // a ray that is looked at so far meets no ground
 
 void sky_march_init(const struct sky_pixels *pixels, struct sky_march *out)
@@ -64,14 +64,14 @@ static trl_result make_program(struct sky_march *m, const char *fragment,
 static trl_result make_programs(struct sky_march *m, const struct sky_march_source *source,
                                 bool is_bare)
 {
-    if (m->is_made && m->is_bare == is_bare && m->has_eclipse == source->has_eclipse) {
+    if (m->is_made && m->is_bare == is_bare && m->has_eclipse == (source->eclipse != NULL)) {
         return TRL_OK;
     }
     finish_programs(m);
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", source->peaked_count);
     const char *const surface = is_bare ? NULL : "SURFACE";
-    const char *const eclipse = source->has_eclipse ? "ECLIPSE" : NULL;
+    const char *const eclipse = source->eclipse ? "ECLIPSE" : NULL;
     const char *const march = "sky/spectral/march.frag";
     trl_result result = make_program(m, "sky/spectral/march_begin.frag",
                                      (const char *const[4]){surface}, &m->begin);
@@ -90,7 +90,7 @@ static trl_result make_programs(struct sky_march *m, const struct sky_march_sour
             make_program(m, "sky/spectral/march_fill.frag", (const char *const[4]){NULL}, &m->fill);
     }
     m->is_bare = is_bare;
-    m->has_eclipse = source->has_eclipse;
+    m->has_eclipse = source->eclipse != NULL;
     m->is_made = result == TRL_OK;
     return result;
 }
@@ -124,10 +124,21 @@ static trl_result make_targets(struct sky_march *m)
     return result == TRL_OK ? gpu_target_init(m->gpu, &layer, &m->layer) : result;
 }
 
-static trl_result fit_maps(struct sky_march *m, const struct gpu_target *picture)
+// Finer where an umbra is small in the picture.
+static unsigned find_cell(const struct sky_march_source *source, const struct sky_view *view)
 {
-    struct gpu_region size = {.width = (picture->width + CELL - 1) / CELL,
-                              .height = (picture->height + CELL - 1) / CELL,
+    if (!source->eclipse) {
+        return CELL;
+    }
+    const double umbra_rad = sky_eclipse_width(source->eclipse, view->camera);
+    const double pixel_rad = 2 * view->camera->tan_half_fov_y / view->target->height;
+    return (unsigned)fmin(fmax(umbra_rad / pixel_rad / UMBRA_CELLS, FINEST_CELL), CELL);
+}
+
+static trl_result fit_maps(struct sky_march *m, const struct gpu_target *picture, unsigned cell)
+{
+    struct gpu_region size = {.width = (picture->width + cell - 1) / cell,
+                              .height = (picture->height + cell - 1) / cell,
                               .depth = 1};
     if (m->steps.width == size.width && m->steps.height == size.height) {
         return TRL_OK;
@@ -220,7 +231,7 @@ static void set_program(struct sky_march *m, const struct sky_march_source *sour
     sky_pixels_set_view(source->pixels, program, view);
     source->set_maps(source->self, program);
     if (m->has_eclipse) {
-        sky_eclipse_set(source->pixels, program, view->camera, source->spread_m);
+        sky_eclipse_set(source->pixels, source->eclipse, view->camera, program);
     }
     if (!m->is_bare) {
         view->shadow.bind(view->shadow.self, view->camera, program);
@@ -232,7 +243,7 @@ trl_result sky_march_draw(struct sky_march *m, const struct sky_march_source *so
 {
     trl_result result = make_programs(m, source, sky_view_is_bare(view));
     if (result == TRL_OK) {
-        result = fit_maps(m, view->target);
+        result = fit_maps(m, view->target, find_cell(source, view));
     }
     if (result == TRL_OK) {
         find_range(m, source, view);

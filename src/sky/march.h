@@ -18,6 +18,8 @@
 
 #include "sky/pixels.h"
 
+struct sky_eclipse;
+
 enum { MARCH_LAYERS = 32 };
 
 struct sky_march {
@@ -42,8 +44,7 @@ struct sky_march_source {
     // Sets the uniforms of spectral/air.glsl and the sources.
     void (*set_maps)(const void *self, struct gpu_program *program);
     const void *self;
-    bool has_eclipse; // see eclipse.h
-    double spread_m;
+    const struct sky_eclipse *eclipse; // NULL: none
 };
 
 // Makes the shares of a picture. TRL_ERROR_GPU, TRL_ERROR_MEMORY.

@@ -26,7 +26,7 @@ struct spectral {
     struct sky_pixels pixels;
     // By trl_air and whether there is an eclipse; made when first asked for.
     struct spectral_programs programs[TRL_AIR_MARCH + 1][2];
-    double spread_m; // of scattered light, see eclipse.h
+    struct sky_eclipse eclipse;
     struct sky_march march;
     struct atmosphere_desc desc;
     struct resolver *resolver; // of a medium that was changed to, or NULL
@@ -117,7 +117,6 @@ static trl_result init(const struct sky_desc *desc, struct spectral *sky)
         result = sky_pixels_init(desc, disc_rad, &sky->pixels);
     }
     if (result == TRL_OK) {
-        sky->spread_m = sky_eclipse_spread(sky->maps.atmosphere->optics);
         sky_march_init(&sky->pixels, &sky->march);
         result = make_programs(sky, (struct shades){0});
     }
@@ -129,6 +128,7 @@ static void spectral_destroy(void **self)
     struct spectral *sky = *self;
     resolver_destroy(&sky->resolver);
     sky_march_finish(&sky->march);
+    sky_eclipse_finish(&sky->eclipse);
     finish_programs(sky);
     sky_pixels_finish(&sky->pixels);
     spectral_maps_finish(&sky->maps);
@@ -177,7 +177,7 @@ static trl_result adopt_solved(struct spectral *sky)
     spectral_maps_finish(&sky->maps);
     sky->maps = maps;
     sky->pixels.top_radius_m = maps.atmosphere->optics->top_radius_m;
-    sky->spread_m = sky_eclipse_spread(maps.atmosphere->optics);
+    sky_eclipse_finish(&sky->eclipse);
     sky_march_finish(&sky->march);
     sky_march_init(&sky->pixels, &sky->march);
     if (!has_programs) {
@@ -238,6 +238,9 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
     if (result == TRL_OK) {
         result = prepare_shades(sky, view);
     }
+    if (result == TRL_OK) {
+        result = sky_eclipse_update(&sky->pixels, camera, sky->maps.atmosphere, &sky->eclipse);
+    }
     return result == TRL_OK ? spectral_maps_update(&sky->maps, &eye) : result;
 }
 
@@ -294,12 +297,12 @@ static void set_sources(const void *self, struct gpu_program *program)
 
 static trl_result draw_shares(struct spectral *sky, const struct sky_view *view)
 {
-    const struct sky_march_source source = {.pixels = &sky->pixels,
-                                            .peaked_count = sky->maps.atmosphere->peaked.count,
-                                            .set_maps = set_sources,
-                                            .self = sky,
-                                            .has_eclipse = find_shades(sky, view).has_eclipse,
-                                            .spread_m = sky->spread_m};
+    const struct sky_march_source source = {
+        .pixels = &sky->pixels,
+        .peaked_count = sky->maps.atmosphere->peaked.count,
+        .set_maps = set_sources,
+        .self = sky,
+        .eclipse = find_shades(sky, view).has_eclipse ? &sky->eclipse : NULL};
     return sky_march_draw(&sky->march, &source, view);
 }
 
@@ -316,7 +319,7 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
         sky_march_bind(&sky->march, program);
     }
     if (shades.has_eclipse) {
-        sky_eclipse_set(&sky->pixels, program, view->camera, sky->spread_m);
+        sky_eclipse_set(&sky->pixels, &sky->eclipse, view->camera, program);
     }
     return sky_pixels_draw(&sky->pixels, program, kind, view);
 }

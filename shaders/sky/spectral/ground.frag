@@ -66,8 +66,10 @@ vec4 light_ground(Ray ray, Ground ground)
     float day = sun_coordinate(sun_mu);
     vec4 sky = exp(textureLod(u_skylight, vec2(centre(day, u_light_texel.y), altitude), 0.0));
 #ifdef ECLIPSE
-    star *= star_left(ray.direction * ground.distance_m);
-    sky *= sky_left(ray.direction * ground.distance_m);
+    vec3 place = ray.direction * ground.distance_m;
+    float left = star_left(place);
+    star *= left;
+    sky *= ground_left(place, left);
 #endif
     // A slope sees a part of the sky, and for the rest the ground around it.
     float open = 0.5 + 0.5 * dot(ground.normal, up);

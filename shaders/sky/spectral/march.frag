@@ -78,7 +78,7 @@ Source source_at(Ray ray, float azimuth, float row, float distance_m)
     return source;
 }
 
-#ifdef SURFACE
+#if defined(SURFACE) || defined(ECLIPSE)
 // Height above the sphere without a difference of large numbers.
 float altitude_at(Ray ray, float distance_m)
 {
@@ -87,7 +87,9 @@ float altitude_at(Ray ray, float distance_m)
         u_eye.y * (2.0 * u_planet.x + u_eye.y) + distance_m * (2.0 * r * ray.mu + distance_m);
     return rise / (sqrt(max(u_planet.x * u_planet.x + rise, 0.0)) + u_planet.x);
 }
+#endif
 
+#ifdef SURFACE
 // Over a piece, from one terrain_air_shadow to another, x: the part of it that terrain leaves in
 // the star's light, relative to what the level sphere does; y: the part of it that is air. A ray of
 // the grid goes as far as the pixels around it see, through hills that they see past: in there is
@@ -127,8 +129,12 @@ Source eclipsed(Ray ray, Source source, float distance_m)
 {
 #ifdef ECLIPSE
     vec3 place = ray.direction * distance_m;
-    source.first *= star_left(place);
-    source.multiple *= sky_left(place);
+    float star = star_left(place);
+    vec4 left = sky_left(place, star, altitude_at(ray, distance_m) / u_planet.y);
+    // What was scattered forward comes from where the star is.
+    vec3 forward = min(source.first * left.w, source.multiple);
+    source.multiple = (source.multiple - forward) * left.xyz + forward * star;
+    source.first *= star;
 #endif
     return source;
 }
