@@ -46,4 +46,15 @@ SHARED_FN Number eclipse_shadow(Length across, Length along, Length radius_m, An
     return eclipse_visible(apart / star_rad, body / star_rad);
 }
 
+// Radiance of the Sun's corona at `apart` from its centre, 1 and more, relative to the mean over the
+// disc: the fit known as Baumbach's. The first term is light from dust (F), the others from
+// electrons (K); physics.md tells how well other measurements agree.
+SHARED_FN Number eclipse_corona(Number apart)
+{
+    Number i = 1.0 / shared_max(apart, 1.0);
+    Number i2 = i * i;
+    Number i7 = i2 * i2 * i2 * i;
+    return 1.0e-6 * (0.0532 * i2 * sqrt(i) + i7 * (1.425 + 2.565 * i7 * i2 * i));
+}
+
 #endif // SHARED_ECLIPSE_GLSL

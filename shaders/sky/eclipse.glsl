@@ -11,6 +11,7 @@ uniform vec4 u_body;      // of its centre from the eye, across the way to the s
 uniform vec4 u_body_rays; // of its centre from the eye: unit; sine of its angular radius
 uniform vec3 u_shadow;    // of its centre from the eye, toward the star; star's angular radius;
                           // scale of umbra_coordinate (scatter/umbra.h)
+uniform float u_corona;   // times the Sun's
 uniform vec3 u_umbra_u;   // unit, across: that way u grows
 uniform sampler3D u_umbra_air;    // u x v x altitude: what is left, of XYZ
 uniform sampler2D u_umbra_ground; // u x v: of the sky's light on the ground, in the bands
@@ -51,6 +52,14 @@ vec4 sky_left(vec3 place, float star, float height)
 vec4 ground_left(vec3 place, float star)
 {
     return max(textureLod(u_umbra_ground, umbra_place(place), 0.0) + star, vec4(0.0));
+}
+
+// Radiance per unit irradiance of the star, sr^-1.
+float corona(Ray ray)
+{
+    float apart = length(cross(ray.direction, u_sun)) / u_disc.y;
+    float around = ray.nu > 0.0 && apart > 1.0 ? eclipse_corona(apart) : 0.0;
+    return around * u_corona / (SHARED_PI * u_disc.y * u_disc.y);
 }
 
 // 0 where the body is before what a ray shows, with an edge as soft as a pixel.

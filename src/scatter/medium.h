@@ -81,6 +81,7 @@ struct medium {
     struct spectrum ground_albedo;   // Lambertian, in [0, 1]
     struct spectrum star_irradiance; // W m^-2 nm^-1 at the planet, on a plane facing the star
     double star_angular_radius_rad;  // >= 0
+    double star_corona;              // radiance of its corona relative to the Sun's, >= 0
     size_t constituent_count;
     struct constituent constituents[MEDIUM_MAX_CONSTITUENTS];
 };

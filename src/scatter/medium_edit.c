@@ -44,7 +44,8 @@ trl_result medium_copy_atmosphere(const trl_context *ctx, const struct medium *p
     const double height_m = atmosphere->top_radius_m - atmosphere->ground_radius_m;
     *out = (struct medium){.ground_radius_m = planet->ground_radius_m,
                            .top_radius_m = planet->ground_radius_m + height_m,
-                           .star_angular_radius_rad = planet->star_angular_radius_rad};
+                           .star_angular_radius_rad = planet->star_angular_radius_rad,
+                           .star_corona = planet->star_corona};
     trl_result result = spectrum_copy(ctx, &planet->ground_albedo, &out->ground_albedo);
     if (result == TRL_OK) {
         result = spectrum_copy(ctx, &planet->star_irradiance, &out->star_irradiance);

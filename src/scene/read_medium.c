@@ -15,6 +15,7 @@ static const struct scene_range densities = {.min = 0, .max = 1e6};
 static const struct scene_range albedos = {.min = 0, .max = 1};
 static const struct scene_range irradiances = {.min = 0, .max = MEDIUM_MAX_IRRADIANCE};
 static const struct scene_range star_radii_deg = {.min = 0, .max = 90};
+static const struct scene_range coronas = {.min = 0, .max = 1000};
 
 static trl_result read_profile_table(const struct scene_node *node, struct profile *out)
 {
@@ -94,16 +95,20 @@ static trl_result read_atmosphere(const struct scene_node *node, struct medium *
 
 static trl_result read_star(const struct scene_node *node, struct medium *out)
 {
-    const char *const keys[] = {"spectral_irradiance", "angular_radius_deg", NULL};
+    const char *const keys[] = {"spectral_irradiance", "angular_radius_deg", "corona", NULL};
     trl_result result = scene_node_check_keys(node, keys);
     const struct scene_node irradiance = scene_node_member(node, "spectral_irradiance");
     const struct scene_node radius = scene_node_member(node, "angular_radius_deg");
+    const struct scene_node corona = scene_node_member(node, "corona");
     double radius_deg = 0;
     if (result == TRL_OK) {
         result = scene_read_spectrum(&irradiance, &irradiances, &out->star_irradiance);
     }
     if (result == TRL_OK) {
         result = scene_node_number_or(&radius, &star_radii_deg, &radius_deg);
+    }
+    if (result == TRL_OK) {
+        result = scene_node_number_or(&corona, &coronas, &out->star_corona);
     }
     out->star_angular_radius_rad = radius_deg * RADIANS_PER_DEGREE;
     return result;

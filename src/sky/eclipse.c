@@ -139,6 +139,7 @@ trl_result sky_eclipse_update(const struct sky_pixels *pixels, const struct came
         return TRL_OK;
     }
     const struct axis axis = find_axis(pixels, camera);
+    eclipse->corona = atmosphere->medium.star_corona;
     eclipse->place_m = vec3_scale(axis.up, pixels->ground_radius_m);
     if (eclipse->kernel && is_same(&eclipse->shadow, &axis.shadow)) {
         return TRL_OK;
@@ -184,6 +185,7 @@ void sky_eclipse_set(const struct sky_pixels *pixels, const struct sky_eclipse *
     sky_set_vec3(program, "u_shadow",
                  (struct vec3){toward_m, pixels->disc_rad, eclipse->map->scale_m});
     sky_set_vec3(program, "u_umbra_u", axis.u);
+    gpu_program_set_float(program, "u_corona", (float)eclipse->corona);
     gpu_program_set_texture(program, "u_umbra_air", &eclipse->air);
     gpu_program_set_texture(program, "u_umbra_ground", &eclipse->ground);
 }

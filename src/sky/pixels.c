@@ -9,7 +9,8 @@ trl_result sky_pixels_init(const struct sky_desc *desc, double disc_rad, struct 
     *out = (struct sky_pixels){.gpu = desc->gpu,
                                .ground_radius_m = desc->medium->ground_radius_m,
                                .top_radius_m = desc->medium->top_radius_m,
-                               .disc_rad = disc_rad};
+                               .disc_rad = disc_rad,
+                               .shown_rad = disc_rad};
     const char *const surface[] = {"SURFACE"};
     struct gpu_program_desc program = {.vertex = "sky/layer.vert", .fragment = "sky/sort.frag"};
     trl_result result = gpu_program_init(desc->gpu, &program, &out->sort_bare);
@@ -111,13 +112,13 @@ static void set_surface(struct gpu_program *program, const struct sky_surface *s
     gpu_program_set_texture(program, "u_lights", surface->lights);
 }
 
-// Pixels in which the star's disc may show. From far off the axis the disc looks longer: outward it
+// Pixels in which the star may show. From far off the axis the disc looks longer: outward it
 // reaches from the tangent of the angle to that of the angle and the disc's.
 static struct gpu_rect find_star(const struct sky_pixels *pixels, const struct camera *camera,
                                  const struct gpu_target *target)
 {
     const double pixel_rad = 2 * camera->tan_half_fov_y / target->height;
-    const double disc_rad = pixels->disc_rad + pixel_rad;
+    const double disc_rad = pixels->shown_rad + pixel_rad;
     const double along = vec3_dot(camera->sun_direction, camera->forward);
     const double off_rad = acos(fmax(-1, fmin(1, along)));
     if (off_rad - disc_rad > M_PI / 2) {

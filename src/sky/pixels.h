@@ -19,7 +19,8 @@ enum sky_kind {
 struct sky_pixels {
     struct gpu *gpu;
     double ground_radius_m, top_radius_m;
-    double disc_rad; // angular radius of the star
+    double disc_rad;  // angular radius of the star
+    double shown_rad; // up to where its pixels show more than air: the disc, or a corona
     struct gpu_program sort_bare, sort_surface;
 };
 

@@ -324,6 +324,9 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
     return sky_pixels_draw(&sky->pixels, program, kind, view);
 }
 
+// In eclipses the star shows as far as its corona outshines 1 % of a sky in totality.
+static const double CORONA_RADII = 30;
+
 static trl_result spectral_draw(void *self, const struct sky_view *view)
 {
     struct spectral *sky = self;
@@ -331,6 +334,8 @@ static trl_result spectral_draw(void *self, const struct sky_view *view)
     struct spectral_programs *programs = &sky->programs[shades.has_march][shades.has_eclipse];
     struct gpu_program *ground =
         sky_view_is_bare(view) ? &programs->ground_bare : &programs->ground_surface;
+    const bool has_corona = shades.has_eclipse && sky->eclipse.corona > 0;
+    sky->pixels.shown_rad = sky->pixels.disc_rad * (has_corona ? CORONA_RADII : 1);
     trl_result result = shades.has_march ? draw_shares(sky, view) : TRL_OK;
     if (result == TRL_OK) {
         result = sky_pixels_sort(&sky->pixels, view);

@@ -233,6 +233,51 @@ class Rayleigh(ProgramTest):
             self.expect_failure(2, ["render", self.scene, "--rayleigh-" + name, value], ["--rayleigh-" + name])
 
 
+class Eclipses(ProgramTest):
+    """Bodies in odd places: one line that says what is wrong, or a picture of numbers."""
+
+    def write_eclipse(self, body=None, star=None, camera=None, place=None):
+        scene = copy.deepcopy(THIN_SCENE)
+        scene["star"].update(star or {})
+        scene["bodies"] = [{"name": "Moon", "radius_m": 1737400, "distance_m": 363300000, "geometric_albedo": 0.1}]
+        scene["bodies"][0].update(body or {})
+        view = scene["views"]["ground"]
+        view["camera"].update(camera or {})
+        view["bodies"] = {"Moon": place or {"offset_from_sun_deg": [0, 0]}}
+        return self.write_scene(scene, "eclipse.json")
+
+    def draw(self, **changes):
+        scene = self.write_eclipse(**changes)
+        self.expect_success("render", scene, "--size", "24x16", "--ev100", "8", "-o", "a.png", "-q")
+        return sum(sum(row) for row in read_png(self.work / "a.png")[2]) / (24 * 16 * 3)
+
+    def test_bodies_where_none_can_be(self):
+        cases = [
+            ({"body": {"radius_m": 0}}, ["radius_m", "is 0", ">= 1"]),
+            ({"body": {"distance_m": 1e6}}, ["distance_m", "reach into the planet or its air"]),
+            ({"place": {"offset_from_sun_deg": [0, 0], "distance_m": 1e6}}, ["views.ground.bodies.Moon.distance_m"]),
+            ({"camera": {"altitude_m": 3.57e8}, "place": {"latitude_deg": 10, "longitude_deg": 20}},
+             ["the camera is inside the body \"Moon\""]),
+            ({"star": {"corona": -1}}, ["star.corona", "is -1"]),
+        ]
+        for changes, mentions in cases:
+            self.expect_failure(1, ["render", self.write_eclipse(**changes)], mentions)
+
+    def test_odd_shadows(self):
+        day = self.draw(body={"radius_m": 1})
+        self.assertGreater(day, 200)
+        self.assertLess(self.draw(), 20)
+        # Everything is dark; just clear of the air; a star as wide as the sky; a point.
+        self.assertLess(self.draw(body={"radius_m": 1e8, "distance_m": 2e8}), 1)
+        self.assertLess(self.draw(body={"distance_m": 8168401}), 1)
+        self.assertGreater(self.draw(star={"angular_radius_deg": 80}), 200)
+        self.assertLess(self.draw(star={"angular_radius_deg": 0}), 20)
+
+    def test_corona(self):
+        aim = {"camera": {"heading_deg": 120, "pitch_deg": 30, "vertical_fov_deg": 2}}
+        self.assertGreater(self.draw(star={"corona": 1}, **aim), self.draw(**aim) + 20)
+
+
 class Failures(ProgramTest):
     def expect_wrong(self, scene, *mentions, output="a.png"):
         self.expect_failure(1, ["render", scene, "--size", SIZE, "-o", output], mentions)

@@ -3,6 +3,7 @@
 // The GPU's float and C's double agree on the formulas that are one text for both.
 #include "fixture.h"
 
+#include "shared/eclipse.glsl"
 #include "shared/penumbra.glsl"
 #include "shared/phase.glsl"
 #include "shared/profile.glsl"
@@ -156,6 +157,36 @@ static void shadows_agree(void **state)
     gpu_program_finish(&program);
 }
 
+static void eclipses_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    gpu_program_set_float(&program, "u_wants_eclipse", 1);
+    const float apart[] = {0, 0.003f, 0.06f, 0.3f, 0.95f, 1, 1.04f, 1.3f, 2, 2.06f, 19, 20.5f};
+    const float radius[] = {0.01f, 0.5f, 0.94f, 1, 1.06f, 20};
+    for (size_t i = 0; i < sizeof apart / sizeof apart[0]; i++) {
+        for (size_t j = 0; j < sizeof radius / sizeof radius[0]; j++) {
+            const float discs[4] = {apart[i], radius[j], 0, 0};
+            const double across = 2e5 * (double)apart[i];
+            const float place[4] = {(float)across, 3.6e8f, 0, 0};
+            gpu_program_set_vec4(&program, "u_angle", discs);
+            gpu_program_set_vec4(&program, "u_shell", place);
+            const struct texel got = draw(f, &program);
+            // Parts of a disc are differences of angles that are some 1, the larger disc's times
+            // the square of its radius; Mesa takes atan2 and asin to 1e-5 and 1e-4.
+            const double wanted = eclipse_visible((double)apart[i], (double)radius[j]);
+            const double scale = fmax(1, pow((double)radius[j], 2));
+            assert_true(fabs((double)got.rgba[0] - wanted) < 1e-5 * scale);
+            assert_agree(got.rgba[1], eclipse_corona((double)apart[i]));
+            const double shadow =
+                eclipse_shadow((double)place[0], (double)place[1], 1737400, 0.0046529);
+            assert_true(fabs((double)got.rgba[2] - shadow) < 1e-4);
+            assert_true((got.rgba[2] == 1) == (shadow == 1));
+        }
+    }
+    gpu_program_finish(&program);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -164,6 +195,7 @@ int main(void)
         cmocka_unit_test(maps_agree),
         cmocka_unit_test(maps_from_outside_agree),
         cmocka_unit_test(shadows_agree),
+        cmocka_unit_test(eclipses_agree),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }

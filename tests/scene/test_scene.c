@@ -52,6 +52,7 @@ static void sample_is_read_whole(void **state)
     assert_near(trl_scene_top_radius_m(s), 6471000);
     assert_near(s->medium.star_irradiance.constant, 1.5);
     assert_near(s->medium.star_angular_radius_rad, 0.25 * PI / 180);
+    assert_true(s->medium.star_corona == 0);
     assert_near(s->medium.ground_albedo.constant, 0.1);
     assert_int_equal(s->medium.constituent_count, 1);
     assert_string_equal(s->medium.constituents[0].name, "air");

@@ -149,6 +149,7 @@ static void numbers_out_of_range_say_what_is_allowed(void **state)
         {"0.1 }", "{\"power_law\":{\"at_nm\":550,\"value\":0.9,\"exponent\":2}} }",
          "t.json:3:53: planet.ground_albedo: is 1.0"},
         {"0.25", "91", "t.json:2:63: star.angular_radius_deg: is 91"},
+        {"0.25", "0.25, \"corona\": -1", "t.json:2:79: star.corona: is -1; must be a number >= 0"},
         {"1.5", "-1", "t.json:2:36: star.spectral_irradiance: is -1"},
         {"1e-5", "1001",
          "t.json:5:42: atmosphere.constituents[0].scattering_per_m: is 1001; must "

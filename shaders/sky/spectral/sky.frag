@@ -25,11 +25,13 @@ void main()
     ray.end_m = max(ray.begin_m, ray.chord_m - u_eye.x * ray.mu);
     vec4 bands = vec4(0.0);
 #ifdef STAR
-    bands = star_disc(ray) * air_before(ray, ray.end_m).transmittance;
+    float star = star_disc(ray);
 #ifdef ECLIPSE
     // A covered star does not shine through edges that are softer than its rim is wide.
-    bands *= star_left(vec3(0.0)) > 0.0 ? body_leaves(ray) : 0.0;
+    star *= star_left(vec3(0.0)) > 0.0 ? 1.0 : 0.0;
+    star = (star + corona(ray)) * body_leaves(ray);
 #endif
+    bands = vec4(star) * air_before(ray, ray.end_m).transmittance;
 #endif
     vec3 light = sky_light(ray);
 #ifdef MARCH

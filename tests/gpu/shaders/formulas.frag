@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // The formulas that C and GLSL share, at the arguments of a test.
+#include "shared/eclipse.glsl"
 #include "shared/penumbra.glsl"
 #include "shared/phase.glsl"
 #include "shared/profile.glsl"
@@ -13,6 +14,7 @@ uniform float u_wants_profile;
 uniform float u_wants_map;
 uniform float u_wants_outside;
 uniform float u_wants_shadow;
+uniform float u_wants_eclipse;
 layout(location = 0) out vec4 o_color;
 
 void main()
@@ -30,7 +32,10 @@ void main()
     SkyMapSuns suns = sky_map_suns(7.0e6, u_map.x, 6.5e6, -0.4, u_map.z);
     vec4 outside = vec4(sky_map_ground_row_outside(u_map.x, 1000.0, u_map.y),
                         sky_map_depth_outside(u_map.x, 1000.0, u_map.y), suns.middle, suns.reach);
-    o_color = u_wants_outside > 0.5  ? outside
+    vec4 eclipses = vec4(eclipse_visible(u_angle.x, u_angle.y), eclipse_corona(u_angle.x),
+                         eclipse_shadow(u_shell.x, u_shell.y, 1737400.0, 0.0046529), 0.0);
+    o_color = u_wants_eclipse > 0.5  ? eclipses
+              : u_wants_outside > 0.5 ? outside
               : u_wants_shadow > 0.5 ? shadows
               : u_wants_map > 0.5    ? maps
                                      : (u_wants_profile > 0.5 ? profiles : phases);
