@@ -46,8 +46,8 @@ SHARED_FN Number eclipse_shadow(Length across, Length along, Length radius_m, An
     return eclipse_visible(apart / star_rad, body / star_rad);
 }
 
-// Radiance of the Sun's corona at `apart` from its centre, 1 and more, relative to the mean over the
-// disc: the fit known as Baumbach's. The first term is light from dust (F), the others from
+// Radiance of the Sun's corona at `apart` from its centre, 1 and more, relative to the mean over
+// the disc: the fit known as Baumbach's. Its first term is light from dust (F), the others from
 // electrons (K); physics.md tells how well other measurements agree.
 SHARED_FN Number eclipse_corona(Number apart)
 {

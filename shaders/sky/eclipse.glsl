@@ -9,7 +9,7 @@
 
 uniform vec4 u_body;      // of its centre from the eye, across the way to the star; radius
 uniform vec4 u_body_rays; // of its centre from the eye: unit; sine of its angular radius
-uniform vec3 u_shadow;    // of its centre from the eye, toward the star; star's angular radius;
+uniform vec3 u_eclipse;   // of its centre from the eye, toward the star; star's angular radius;
                           // scale of umbra_coordinate (scatter/umbra.h)
 uniform float u_corona;   // times the Sun's
 uniform vec3 u_umbra_u;   // unit, across: that way u grows
@@ -20,14 +20,14 @@ uniform sampler2D u_umbra_ground; // u x v: of the sky's light on the ground, in
 vec2 eclipse_place(vec3 place)
 {
     float toward = dot(place, u_sun);
-    return vec2(length(u_body.xyz - (place - toward * u_sun)), u_shadow.x - toward);
+    return vec2(length(u_body.xyz - (place - toward * u_sun)), u_eclipse.x - toward);
 }
 
 // Visible part of the star.
 float star_left(vec3 place)
 {
     vec2 at = eclipse_place(place);
-    return eclipse_shadow(at.x, at.y, u_body.w, u_shadow.y);
+    return eclipse_shadow(at.x, at.y, u_body.w, u_eclipse.y);
 }
 
 vec2 umbra_place(vec3 place)
@@ -35,7 +35,7 @@ vec2 umbra_place(vec3 place)
     vec3 across = place - dot(place, u_sun) * u_sun - u_body.xyz;
     float u = dot(across, u_umbra_u);
     float v = length(across - u * u_umbra_u);
-    return vec2(0.5 + 0.5 * u / (abs(u) + u_shadow.z), v / (v + u_shadow.z));
+    return vec2(0.5 + 0.5 * u / (abs(u) + u_eclipse.z), v / (v + u_eclipse.z));
 }
 
 // What is left of light that the air and the ground around have scattered, of XYZ, where `star` is

@@ -182,7 +182,7 @@ void sky_eclipse_set(const struct sky_pixels *pixels, const struct sky_eclipse *
     sky_set_vec4(program, "u_body", across.x, across.y, across.z, body->radius_m);
     sky_set_vec4(program, "u_body_rays", direction.x, direction.y, direction.z,
                  body->radius_m / away_m);
-    sky_set_vec3(program, "u_shadow",
+    sky_set_vec3(program, "u_eclipse",
                  (struct vec3){toward_m, pixels->disc_rad, eclipse->map->scale_m});
     sky_set_vec3(program, "u_umbra_u", axis.u);
     gpu_program_set_float(program, "u_corona", (float)eclipse->corona);

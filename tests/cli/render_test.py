@@ -236,8 +236,8 @@ class Rayleigh(ProgramTest):
 class Eclipses(ProgramTest):
     """Bodies in odd places: one line that says what is wrong, or a picture of numbers."""
 
-    def write_eclipse(self, body=None, star=None, camera=None, place=None):
-        scene = copy.deepcopy(THIN_SCENE)
+    def write_eclipse(self, body=None, star=None, camera=None, place=None, layers=()):
+        scene = add_layers(*layers) if layers else copy.deepcopy(THIN_SCENE)
         scene["star"].update(star or {})
         scene["bodies"] = [{"name": "Moon", "radius_m": 1737400, "distance_m": 363300000, "geometric_albedo": 0.1}]
         scene["bodies"][0].update(body or {})
@@ -272,6 +272,12 @@ class Eclipses(ProgramTest):
         self.assertLess(self.draw(body={"distance_m": 8168401}), 1)
         self.assertGreater(self.draw(star={"angular_radius_deg": 80}), 200)
         self.assertLess(self.draw(star={"angular_radius_deg": 0}), 20)
+
+    def test_terrain(self):
+        (self.data / "h.tif").write_bytes(make_tiff(64, 32))
+        layers = [{"name": "h", "elevation": "h.tif"}]
+        self.assertLess(self.draw(layers=layers), 20)
+        self.assertGreater(self.draw(layers=layers, body={"radius_m": 1}), 100)
 
     def test_corona(self):
         aim = {"camera": {"heading_deg": 120, "pitch_deg": 30, "vertical_fov_deg": 2}}

@@ -12,6 +12,7 @@
 // validate: PEAKED_COUNT 3; SURFACE; TO_SPACE
 // validate: PEAKED_COUNT 1; ECLIPSE
 // validate: PEAKED_COUNT 1; TO_SPACE; ECLIPSE
+// validate: PEAKED_COUNT 1; SURFACE; ECLIPSE
 
 #include "sky/spectral/air.glsl"
 #ifdef ECLIPSE
