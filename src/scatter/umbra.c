@@ -225,21 +225,23 @@ static void add_forward(struct work *work)
     work->sum.open_ground += light;
 }
 
-static void sum_orders(struct work *work)
+// Orders from 1 on, of light that is scattered or reflected once more before it is seen; in all it
+// may have `orders`, 0 for any number.
+static void sum_orders(struct work *work, int orders)
 {
-    add_forward(work);
-    struct factor factor;
-    for (int n = 1; n <= ORDERS; n++) {
+    const bool is_limited = orders > 0 && orders <= ORDERS;
+    const int last = is_limited ? orders - 1 : ORDERS;
+    for (int n = 1; n <= last; n++) {
         const struct light *from = &work->light[(n + 1) % 2];
         struct light *to = &work->light[n % 2];
         scatter(work, from, to);
-        const bool is_last = n == ORDERS;
+        const bool has_tail = n == last && !is_limited;
+        const umbra_bands once = {1, 1, 1, 1};
+        struct factor factor;
         for (int a = 0; a < UMBRA_ALTITUDES; a++) {
-            factor.air[a] = is_last ? sum_series(to->open_air[a], from->open_air[a])
-                                    : (umbra_bands){1, 1, 1, 1};
+            factor.air[a] = has_tail ? sum_series(to->open_air[a], from->open_air[a]) : once;
         }
-        factor.ground =
-            is_last ? sum_series(to->open_ground, from->open_ground) : (umbra_bands){1, 1, 1, 1};
+        factor.ground = has_tail ? sum_series(to->open_ground, from->open_ground) : once;
         add_light(&work->sum, to, &factor);
     }
 }
@@ -328,7 +330,8 @@ trl_result umbra_map_make(const trl_context *ctx, const struct umbra_kernel *ker
         work->star_mu = fmax(shadow->star_mu, LOWEST_STAR);
         work->star_sine = sqrt(1 - work->star_mu * work->star_mu);
         light_directly(work, shadow, &work->light[0]);
-        sum_orders(work);
+        add_forward(work);
+        sum_orders(work, shadow->orders);
         out->scale_m = work->scale_m;
         fill_map(work, bands, out);
     }

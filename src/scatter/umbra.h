@@ -54,6 +54,7 @@ struct umbra_shadow {
     double along_m;  // of the ground behind it
     double star_rad; // angular radius
     double star_mu;  // cosine of the star's zenith angle, > 0
+    int orders;      // scatterings and reflections that light may have; 0: all
 };
 
 // Shares of light less the visible part of the star, which is known better between the nodes; u

@@ -138,7 +138,8 @@ trl_result sky_eclipse_update(const struct sky_pixels *pixels, const struct came
     if (sky_eclipse_find(pixels, camera) < 0) {
         return TRL_OK;
     }
-    const struct axis axis = find_axis(pixels, camera);
+    struct axis axis = find_axis(pixels, camera);
+    axis.shadow.orders = eclipse->orders;
     eclipse->corona = atmosphere->medium.star_corona;
     eclipse->place_m = vec3_scale(axis.up, pixels->ground_radius_m);
     if (eclipse->kernel && is_same(&eclipse->shadow, &axis.shadow)) {

@@ -23,6 +23,7 @@ struct sky_eclipse {
     struct umbra_kernel *kernel; // NULL before the first shadow
     struct umbra_map *map;
     struct umbra_shadow shadow; // that the map is of
+    int orders;                 // that light may have, set by the owner; 0: all
     double corona;              // times the Sun's
     struct vec3 place_m;        // where its axis meets the ground, or passes it nearest
     struct gpu_texture air, ground;

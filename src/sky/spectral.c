@@ -239,6 +239,7 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
         result = prepare_shades(sky, view);
     }
     if (result == TRL_OK) {
+        sky->eclipse.orders = (int)sky->desc.orders;
         result = sky_eclipse_update(&sky->pixels, camera, sky->maps.atmosphere, &sky->eclipse);
     }
     return result == TRL_OK ? spectral_maps_update(&sky->maps, &eye) : result;

@@ -124,6 +124,22 @@ static void the_umbra_is_lit_from_beyond(void **state)
     }
 }
 
+// Each further scattering brings light from farther away.
+static void orders_light_the_umbra(void **state)
+{
+    (void)state;
+    const struct medium medium = earth_like_medium(0.3);
+    double before = 0;
+    for (int orders = 2; orders <= 4; orders++) {
+        struct umbra_shadow shadow = OF_MOON;
+        shadow.orders = orders;
+        const double left = ground_left(solve(&medium, &shadow), &shadow, UMBRA_US / 2);
+        assert_true(left > before);
+        before = left;
+    }
+    assert_true(ground_left(solve(&medium, &OF_MOON), &OF_MOON, UMBRA_US / 2) > before);
+}
+
 // Everything that enters a thick medium without absorption is scattered in it: within it, what
 // reaches a place has come from the medium, with all weights together 1.
 static void weights_of_a_thick_medium_sum_to_one(void **state)
@@ -167,6 +183,7 @@ int main(void)
         cmocka_unit_test(nothing_is_missing_without_a_shadow),
         cmocka_unit_test(nothing_is_left_where_all_is_dark),
         cmocka_unit_test(the_umbra_is_lit_from_beyond),
+        cmocka_unit_test(orders_light_the_umbra),
         cmocka_unit_test(weights_of_a_thick_medium_sum_to_one),
         cmocka_unit_test(direct_light_is_beers),
     };
