@@ -83,19 +83,30 @@ bool frame_is_settled(const struct frame *frame)
     return sky_is_settled(&frame->skies[frame->sky_model]);
 }
 
+static void describe_bodies(const struct trl_scene *scene, struct body_desc out[SCENE_MAX_BODIES])
+{
+    for (size_t i = 0; i < scene->body_count; i++) {
+        out[i] = (struct body_desc){&scene->bodies[i].geometric_albedo, scene->bodies[i].phase_law};
+    }
+}
+
 // What is beyond the air. A catalogue that may be missing is left out when it is.
 static trl_result make_space(struct frame *frame)
 {
     const struct trl_scene *scene = frame->scene;
     const struct scene_stars *stars = &scene->stars;
     const bool is_left_out = stars->is_optional && stars->path && access(stars->path, F_OK) != 0;
+    struct body_desc bodies[SCENE_MAX_BODIES];
+    describe_bodies(scene, bodies);
     struct space_desc desc = {.gpu = frame->gpu,
                               .medium = &frame->medium,
                               .catalogue_path = is_left_out ? NULL : stars->path,
                               .limit_magnitude = stars->limit_magnitude,
                               .pole_right_ascension_rad = stars->pole_right_ascension_rad,
                               .pole_declination_rad = stars->pole_declination_rad,
-                              .background_cd_m2 = stars->background_cd_m2};
+                              .background_cd_m2 = stars->background_cd_m2,
+                              .body_count = scene->body_count,
+                              .bodies = bodies};
     daylight_ground_albedo(&scene->medium, desc.ground_albedo);
     if (is_left_out) {
         trl_log(frame->ctx, TRL_LOG_INFO, TRL_LOG_ITEM_SCENE, "no stars: there is no file %s",

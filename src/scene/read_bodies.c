@@ -58,10 +58,27 @@ static trl_result read_name(const struct scene_node *node, const struct trl_scen
     return out->name ? TRL_OK : TRL_ERROR_MEMORY;
 }
 
+static trl_result read_law(const struct scene_node *node, struct scene_body *out)
+{
+    const char *const words[] = {[BODY_LOMMEL_SEELIGER] = "lommel_seeliger",
+                                 [BODY_LAMBERT] = "lambert",
+                                 [BODY_LUNAR] = "lunar",
+                                 NULL};
+    const struct scene_node law = scene_node_member(node, "phase_law");
+    if (!law.value) {
+        return TRL_OK; // lommel_seeliger
+    }
+    size_t word = 0;
+    const trl_result result = scene_node_word(&law, words, &word);
+    out->phase_law = (enum body_law)word;
+    return result;
+}
+
 static trl_result read_body(const struct scene_node *node, const struct trl_scene *scene,
                             struct scene_body *out)
 {
-    const char *const keys[] = {"name", "radius_m", "distance_m", "geometric_albedo", NULL};
+    const char *const keys[] = {"name",      "radius_m", "distance_m", "geometric_albedo",
+                                "phase_law", NULL};
     const struct scene_range radii = {.min = 1, .max = 1e10};
     const struct scene_range albedos = {.min = 0, .max = 2};
     const struct scene_node name = scene_node_member(node, "name");
@@ -78,8 +95,10 @@ static trl_result read_body(const struct scene_node *node, const struct trl_scen
     if (result == TRL_OK) {
         result = read_distance(&distance, scene, out, &out->distance_m);
     }
-    return result == TRL_OK ? scene_read_spectrum(&albedo, &albedos, &out->geometric_albedo)
-                            : result;
+    if (result == TRL_OK) {
+        result = scene_read_spectrum(&albedo, &albedos, &out->geometric_albedo);
+    }
+    return result == TRL_OK ? read_law(node, out) : result;
 }
 
 trl_result scene_read_bodies(const struct scene_node *root, struct trl_scene *out)

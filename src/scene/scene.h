@@ -5,6 +5,7 @@
 // A scene as read from its file: physics, surface layers, named views.
 
 #include "scatter/medium.h"
+#include "sky/body_light.h"
 #include <terrella/scene.h>
 
 enum { SCENE_MAX_LAYERS = 32, SCENE_MAX_VIEWS = 256, SCENE_MAX_BODIES = TRL_VIEW_MAX_BODIES };
@@ -43,6 +44,7 @@ struct scene_body {
     double radius_m;
     double distance_m;                // of its centre from the planet's, where a view says no other
     struct spectrum geometric_albedo; // fully lit, relative to a Lambertian disc facing the star
+    enum body_law phase_law;
 };
 
 // What a body's distance must be above, in metres: clear of the planet and its air.

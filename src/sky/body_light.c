@@ -55,3 +55,19 @@ double body_phase(enum body_law law, double phase_angle_rad)
     }
     return integrate_lommel_seeliger(angle_rad) * body_phase_scale(law, angle_rad);
 }
+
+struct body_sight body_see(const struct camera *camera, const struct camera_body *body)
+{
+    const struct vec3 way_m = vec3_sub(body->position_m, camera->position_m);
+    const struct vec3 direction = vec3_normalize(way_m);
+    const double across = vec3_length(vec3_cross(direction, camera->sun_direction));
+    return (struct body_sight){.direction = direction,
+                               .sine = fmin(body->radius_m / vec3_length(way_m), 1),
+                               .phase_angle_rad =
+                                   atan2(across, -vec3_dot(direction, camera->sun_direction))};
+}
+
+double body_share(enum body_law law, const struct body_sight *sight)
+{
+    return sight->sine * sight->sine * body_phase(law, sight->phase_angle_rad);
+}

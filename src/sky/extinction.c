@@ -103,6 +103,7 @@ void extinction_update(struct extinction *e, double radius_m)
     const double ground_m = e->optics->ground_radius_m;
     const double top_m = e->optics->top_radius_m;
     e->radius_m = radius_m;
+    e->version++;
     e->horizon_mu = tangent_mu(radius_m, fmin(ground_m, radius_m));
     e->highest_mu = radius_m > top_m ? tangent_mu(radius_m, top_m) : 1;
     for (int row = 0; row < EXTINCTION_ROWS; row++) {

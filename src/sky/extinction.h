@@ -19,6 +19,7 @@ struct extinction {
     lanes *depth;                    // [EXTINCTION_ROWS], owned
     double xyz_from_lanes[3][LANES]; // lx of irradiance in W m^-2 nm^-1
     double radius_m;                 // of the eye; 0: nothing yet
+    unsigned version;                // another one whenever the rows have changed
     double horizon_mu, highest_mu;   // of the rows: mu = horizon + (highest - horizon) x^2
 };
 

@@ -112,14 +112,14 @@ static void set_surface(struct gpu_program *program, const struct sky_surface *s
     gpu_program_set_texture(program, "u_lights", surface->lights);
 }
 
-// Pixels in which the star may show. From far off the axis the disc looks longer: outward it
-// reaches from the tangent of the angle to that of the angle and the disc's.
-static struct gpu_rect find_star(const struct sky_pixels *pixels, const struct camera *camera,
-                                 const struct gpu_target *target)
+// From far off the axis a disc looks longer: outward it reaches from the tangent of the angle to
+// that of the angle and the disc's.
+struct gpu_rect sky_find_disc(const struct camera *camera, const struct gpu_target *target,
+                              struct vec3 direction, double radius_rad)
 {
     const double pixel_rad = 2 * camera->tan_half_fov_y / target->height;
-    const double disc_rad = pixels->shown_rad + pixel_rad;
-    const double along = vec3_dot(camera->sun_direction, camera->forward);
+    const double disc_rad = radius_rad + pixel_rad;
+    const double along = vec3_dot(direction, camera->forward);
     const double off_rad = acos(fmax(-1, fmin(1, along)));
     if (off_rad - disc_rad > M_PI / 2) {
         return (struct gpu_rect){0};
@@ -128,8 +128,8 @@ static struct gpu_rect find_star(const struct sky_pixels *pixels, const struct c
         return (struct gpu_rect){0, 0, target->width, target->height};
     }
     const double reach = tan(off_rad + disc_rad) - tan(off_rad);
-    const double x = vec3_dot(camera->sun_direction, camera->right) / along;
-    const double y = vec3_dot(camera->sun_direction, camera->up) / along;
+    const double x = vec3_dot(direction, camera->right) / along;
+    const double y = vec3_dot(direction, camera->up) / along;
     const double half_width = 0.5 * target->width / camera->tan_half_fov_x; // pixels
     const double half_height = 0.5 * target->height / camera->tan_half_fov_y;
     const double left = fmax(0, 0.5 * target->width + (x - reach) * half_width - 1);
@@ -165,7 +165,8 @@ trl_result sky_pixels_draw(const struct sky_pixels *pixels, struct gpu_program *
 {
     struct gpu_pass pass = {.target = view->target, .state.depth = GPU_DEPTH_NEARER};
     if (kind == SKY_KIND_STAR) {
-        pass.scissor = find_star(pixels, view->camera, view->target);
+        const struct camera *camera = view->camera;
+        pass.scissor = sky_find_disc(camera, view->target, camera->sun_direction, pixels->shown_rad);
         if (pass.scissor.width == 0) {
             return TRL_OK;
         }

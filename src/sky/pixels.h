@@ -56,6 +56,10 @@ void sky_set_bands(struct gpu_program *program, const struct bands *bands,
 void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *program,
                          const struct sky_view *view);
 
+// Pixels in which a disc of that angular radius may show; none: a width of 0.
+struct gpu_rect sky_find_disc(const struct camera *camera, const struct gpu_target *target,
+                              struct vec3 direction, double radius_rad);
+
 void sky_set_vec3(struct gpu_program *program, const char *name, struct vec3 v);
 void sky_set_vec4(struct gpu_program *program, const char *name, double x, double y, double z,
                   double w);

@@ -19,7 +19,7 @@ static trl_result load_stars(const struct space_desc *desc, struct space *out)
     if (result != TRL_OK) {
         return result;
     }
-    const struct stars_desc stars = {.gpu = desc->gpu,
+    const struct stars_desc stars = {.ctx = ctx,
                                      .extinction = &out->extinction,
                                      .catalogue = &catalogue,
                                      .pole_right_ascension_rad = desc->pole_right_ascension_rad,
@@ -59,6 +59,15 @@ trl_result space_init(const struct space_desc *desc, struct space *out)
     if (result == TRL_OK && desc->catalogue_path) {
         result = load_stars(desc, out);
     }
+    if (result == TRL_OK) {
+        const struct bodies_desc bodies = {desc->gpu, &out->extinction, desc->body_count,
+                                           desc->bodies};
+        bodies_init(&bodies, &out->bodies);
+    }
+    const size_t points = out->stars.count + out->bodies.count;
+    if (result == TRL_OK && points > 0) {
+        result = sprites_init(desc->gpu, points, &out->sprites);
+    }
     if (result == TRL_OK && desc->background_cd_m2 > 0) {
         result = make_background(out);
     }
@@ -73,6 +82,8 @@ void space_finish(struct space *space)
     gpu_program_finish(&space->background);
     gpu_program_finish(&space->ground_bare);
     gpu_program_finish(&space->ground_surface);
+    sprites_finish(&space->sprites);
+    bodies_finish(&space->bodies);
     stars_finish(&space->stars);
     extinction_finish(&space->extinction);
     *space = (struct space){0};
@@ -116,12 +127,18 @@ trl_result space_draw(struct space *space, const struct sky_view *view, double s
     extinction_update(&space->extinction, fmax(vec3_length(camera->position_m),
                                                space->ground_radius_m + SKY_MIN_ALTITUDE_M));
     trl_result result = draw_background(space, view);
-    if (result == TRL_OK && space->stars.count > 0) {
+    if (result == TRL_OK) {
+        const struct bodies_view bodies = {camera, view->target};
+        result = bodies_draw(&space->bodies, &bodies);
+        bodies_add(&space->bodies, &bodies, &space->sprites);
+    }
+    if (result == TRL_OK) {
         const struct stars_view stars = {.camera = camera,
                                          .sidereal_rad = sidereal_rad,
                                          .extinction = &space->extinction,
                                          .target = view->target};
-        result = stars_draw(&space->stars, &stars);
+        stars_add(&space->stars, &stars, &space->sprites);
+        result = sprites_draw(&space->sprites, view->target);
     }
     return result;
 }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #ifndef SKY_SPACE_H
 #define SKY_SPACE_H
-// What is beyond the air, added to a picture after a model of the sky has drawn it: stars and the
-// faint light between them. Works the same for every model.
+// What is beyond the air, added to a picture after a model of the sky has drawn it: bodies, stars
+// and the faint light between them. Works the same for every model.
 
+#include "sky/bodies.h"
 #include "sky/sky.h"
 #include "sky/stars.h"
 
@@ -13,6 +14,8 @@ struct space {
     double ground_radius_m;
     struct extinction extinction;
     struct stars stars;
+    struct bodies bodies;
+    struct sprites sprites; // of stars and bodies; none: not made
     double background_cd_m2;
     float ground_albedo[3]; // linear sRGB, of a bare sphere
     struct gpu_program background, ground_bare, ground_surface;
@@ -26,6 +29,8 @@ struct space_desc {
     double pole_right_ascension_rad, pole_declination_rad;
     double background_cd_m2;
     float ground_albedo[3];
+    size_t body_count;
+    const struct body_desc *bodies; // needed during init only
 };
 
 // TRL_ERROR_IO, TRL_ERROR_INVALID (the catalogue), TRL_ERROR_MEMORY, TRL_ERROR_GPU.

@@ -9,26 +9,8 @@
 // A star of the catalogue with its spectrum.
 struct star {
     struct vec3 direction; // ICRS
-    double illuminance_lx; // above the air
-    lanes irradiance;      // W m^-2 nm^-1
+    lanes irradiance;      // above the air, W m^-2 nm^-1
 };
-
-// What is drawn of one, as star.vert reads it.
-struct star_sprite {
-    float centre_px[2]; // from the lower left corner
-    float light[3];     // linear sRGB, cd m^-2 if all of it were in one pixel
-    float halo;         // share that goes into the wide part of the spread
-};
-
-// Half widths in pixels of what is drawn: of the kernel, and of the same kernel HALO_WIDTH times
-// as wide.
-static const float CORE_HALF_PX = 1.5f;
-enum { HALO_WIDTH = 4 };
-
-// Lens and eye scatter a part of the light around a point: it is what makes bright stars look
-// large. Below this illuminance nobody could see it, and it stays in the core.
-static const double HALO_SHARE = 0.2;
-static const double HALO_FROM_LX = 2.54e-6 * 0.025; // magnitude 4
 
 static void set_axes(struct stars *stars, double right_ascension_rad, double declination_rad)
 {
@@ -46,72 +28,26 @@ static void add_star(const struct catalogue_star *from, const struct extinction 
     const double illuminance_lx = starlight_illuminance_lx(from->magnitude);
     const double unit_lx = cie_luminance(extinction_colour(extinction, &light));
     *out = (struct star){.direction = from->direction,
-                         .illuminance_lx = illuminance_lx,
                          .irradiance = light * (float)(illuminance_lx / unit_lx)};
-}
-
-static trl_result make_mesh(struct stars *stars)
-{
-    static const float corners[4][2] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
-    const struct gpu_mesh_desc desc = {
-        .label = "stars",
-        .primitive = GPU_PRIMITIVE_TRIANGLE_STRIP,
-        .vertex_count = 4,
-        .vertex_stride = sizeof corners[0],
-        .vertices = corners,
-        .instance_stride = sizeof(struct star_sprite),
-        .attribute_count = 3,
-        .attributes = {
-            {.location = 0, .components = 2, .type = GPU_COMPONENT_FLOAT},
-            {.location = 1,
-             .components = 2,
-             .type = GPU_COMPONENT_FLOAT,
-             .offset = offsetof(struct star_sprite, centre_px),
-             .is_per_instance = true},
-            {.location = 2,
-             .components = 4,
-             .type = GPU_COMPONENT_FLOAT,
-             .offset = offsetof(struct star_sprite, light),
-             .is_per_instance = true},
-        }};
-    return gpu_mesh_init(stars->gpu, &desc, &stars->mesh);
 }
 
 trl_result stars_init(const struct stars_desc *desc, struct stars *out)
 {
-    const trl_context *ctx = desc->gpu->ctx;
+    const trl_context *ctx = desc->ctx;
     const size_t count = desc->catalogue->count;
-    *out = (struct stars){.ctx = ctx,
-                          .gpu = desc->gpu,
-                          .count = count,
-                          .stars = mem_alloc(ctx, count, sizeof *out->stars),
-                          .sprites = mem_alloc(ctx, count, sizeof *out->sprites)};
+    *out = (struct stars){
+        .ctx = ctx, .count = count, .stars = mem_alloc(ctx, count, sizeof *out->stars)};
     set_axes(out, desc->pole_right_ascension_rad, desc->pole_declination_rad);
-    trl_result result = out->stars && out->sprites ? TRL_OK : TRL_ERROR_MEMORY;
-    for (size_t i = 0; i < count && result == TRL_OK; i++) {
+    for (size_t i = 0; out->stars && i < count; i++) {
         add_star(&desc->catalogue->stars[i], desc->extinction, &out->stars[i]);
     }
-    const struct gpu_program_desc program = {.vertex = "sky/star.vert",
-                                             .fragment = "sky/star.frag"};
-    if (result == TRL_OK) {
-        result = gpu_program_init(desc->gpu, &program, &out->program);
-    }
-    if (result == TRL_OK) {
-        result = make_mesh(out);
-    }
-    if (result != TRL_OK) {
-        stars_finish(out);
-    }
-    return result;
+    return out->stars ? TRL_OK : TRL_ERROR_MEMORY;
 }
 
 void stars_finish(struct stars *stars)
 {
     if (stars->ctx) {
-        gpu_mesh_finish(&stars->mesh);
-        gpu_program_finish(&stars->program);
         mem_free(stars->ctx, stars->stars);
-        mem_free(stars->ctx, stars->sprites);
     }
     *stars = (struct stars){0};
 }
@@ -139,11 +75,8 @@ struct cover {
 
 // What one frame needs, in the ICRS.
 struct sight {
-    struct vec3 right, up, forward, zenith;
-    double tan_half_x, tan_half_y; // of the picture
-    double margin_x, margin_y;     // how far outside stars still reach in, relative to half of it
-    double width_px, height_px;
-    const struct extinction *extinction;
+    struct sprite_frame frame;
+    struct vec3 zenith;
     size_t cover_count;
     struct cover covers[CAMERA_MAX_BODIES];
 };
@@ -164,18 +97,11 @@ static struct sight find_sight(const struct stars *stars, const struct stars_vie
 {
     const struct camera *camera = view->camera;
     const struct stars_axes axes = stars_turn(stars, view->sidereal_rad);
-    const double reach_px = (double)CORE_HALF_PX * HALO_WIDTH;
-    struct sight sight = {.right = turn(&axes, camera->right),
-                          .up = turn(&axes, camera->up),
-                          .forward = turn(&axes, camera->forward),
-                          .zenith = turn(&axes, vec3_normalize(camera->position_m)),
-                          .tan_half_x = camera->tan_half_fov_x,
-                          .tan_half_y = camera->tan_half_fov_y,
-                          .margin_x = 1 + 2 * reach_px / view->target->width,
-                          .margin_y = 1 + 2 * reach_px / view->target->height,
-                          .width_px = view->target->width,
-                          .height_px = view->target->height,
-                          .extinction = view->extinction};
+    struct sight sight = {.frame = sprite_frame_make(camera, view->target),
+                          .zenith = turn(&axes, vec3_normalize(camera->position_m))};
+    sight.frame.right = turn(&axes, camera->right);
+    sight.frame.up = turn(&axes, camera->up);
+    sight.frame.forward = turn(&axes, camera->forward);
     add_covers(camera, &axes, &sight);
     return sight;
 }
@@ -190,58 +116,20 @@ static bool is_covered(const struct sight *sight, struct vec3 direction)
     return false;
 }
 
-// Share of the light that goes into the halo, rising with the logarithm of the light.
-static float find_halo(double illuminance_lx)
-{
-    const double magnitudes = 2.5 * log10(fmax(illuminance_lx / HALO_FROM_LX, 1));
-    return (float)(HALO_SHARE * fmin(magnitudes / 4, 1));
-}
-
-// Where the star is in the picture and how much of it gets through; false when it is not seen.
-static bool make_sprite(const struct star *star, const struct sight *sight, struct star_sprite *out)
-{
-    const double along = vec3_dot(star->direction, sight->forward);
-    const double x = vec3_dot(star->direction, sight->right);
-    const double y = vec3_dot(star->direction, sight->up);
-    if (along <= 1e-6 || fabs(x) > along * sight->tan_half_x * sight->margin_x ||
-        fabs(y) > along * sight->tan_half_y * sight->margin_y) {
-        return false;
-    }
-    const double mu = vec3_dot(star->direction, sight->zenith);
-    if (extinction_is_hidden(sight->extinction, mu) || is_covered(sight, star->direction)) {
-        return false;
-    }
-    const lanes left = star->irradiance * extinction_at(sight->extinction, mu);
-    const struct cie_rgb rgb = extinction_colour(sight->extinction, &left);
-    // A pixel's part of the image plane, seen from the eye at the angle whose cosine is `along`.
-    const double pixel_sr = 4 * sight->tan_half_x * sight->tan_half_y /
-                            (sight->width_px * sight->height_px) * along * along * along;
-    *out = (struct star_sprite){
-        .centre_px = {(float)(0.5 * sight->width_px * (1 + x / (along * sight->tan_half_x))),
-                      (float)(0.5 * sight->height_px * (1 + y / (along * sight->tan_half_y)))},
-        .light = {(float)(rgb.r / pixel_sr), (float)(rgb.g / pixel_sr), (float)(rgb.b / pixel_sr)},
-        .halo = find_halo(cie_luminance(rgb))};
-    return true;
-}
-
-trl_result stars_draw(struct stars *stars, const struct stars_view *view)
+void stars_add(const struct stars *stars, const struct stars_view *view, struct sprites *sprites)
 {
     const struct sight sight = find_sight(stars, view);
-    uint32_t count = 0;
     for (size_t i = 0; i < stars->count; i++) {
-        count += make_sprite(&stars->stars[i], &sight, &stars->sprites[count]);
+        const struct star *star = &stars->stars[i];
+        struct sprite_place place;
+        if (!sprite_find(&sight.frame, star->direction, &place)) {
+            continue;
+        }
+        const double mu = vec3_dot(star->direction, sight.zenith);
+        if (extinction_is_hidden(view->extinction, mu) || is_covered(&sight, star->direction)) {
+            continue;
+        }
+        const lanes left = star->irradiance * extinction_at(view->extinction, mu);
+        sprites_add(sprites, &sight.frame, &place, extinction_colour(view->extinction, &left));
     }
-    if (count == 0) {
-        return TRL_OK;
-    }
-    const struct gpu_pass pass = {.target = view->target,
-                                  .state = {.depth = GPU_DEPTH_NEARER, .blend = GPU_BLEND_ADD}};
-    const trl_result result = gpu_mesh_update_instances(&stars->mesh, stars->sprites, count);
-    if (result != TRL_OK) {
-        return result;
-    }
-    const float size[2] = {(float)sight.width_px, (float)sight.height_px};
-    gpu_program_set_vec2(&stars->program, "u_size", size);
-    gpu_pass_begin(stars->gpu, &pass);
-    return gpu_draw_mesh(&stars->program, &stars->mesh, count, "stars");
 }

@@ -141,6 +141,7 @@ CHANGES = [
     ("bodies 0 radius_m", REMOVED, False), ("bodies 0 distance_m", REMOVED, False),
     ("bodies 0 geometric_albedo", [[500, 0.1]], True), ("bodies 0 geometric_albedo", 2.1, False),
     ("bodies 0 geometric_albedo", REMOVED, False), ("bodies 0 mass_kg", 1, False),
+    ("bodies 0 phase_law", "lunar", True), ("bodies 0 phase_law", "moon", False),
     ("views one bodies", REMOVED, True), ("views one bodies", {}, True),
     ("views one bodies comment", "x", True), ("views one bodies", [], False),
     ("views one bodies Moon", {}, False), ("views one bodies Moon", 3, False),

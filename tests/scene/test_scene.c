@@ -74,11 +74,16 @@ static void bodies_and_their_places_are_read(void **state)
     assert_near(s->bodies[0].radius_m, 2e6);
     assert_near(s->bodies[0].distance_m, 4e8);
     assert_near(s->bodies[0].geometric_albedo.constant, 0.1);
+    assert_int_equal(s->bodies[0].phase_law, BODY_LOMMEL_SEELIGER);
     assert_int_equal(s->views[0].bodies[0].mode, TRL_BODY_LOCAL);
     assert_near(s->views[0].bodies[0].latitude_or_elevation_rad, 20 * PI / 180);
     assert_near(s->views[0].bodies[0].longitude_or_azimuth_rad, 90 * PI / 180);
     assert_true(s->views[0].bodies[0].distance_m == 0);
     assert_int_equal(s->views[0].bodies[1].mode, TRL_BODY_ABSENT);
+    trl_scene_destroy(&s);
+    s = parse_with(*state, "\"geometric_albedo\": 0.1",
+                   "\"geometric_albedo\": 0.1, \"phase_law\": \"lunar\"");
+    assert_int_equal(s->bodies[0].phase_law, BODY_LUNAR);
     trl_scene_destroy(&s);
     s = parse_with(*state, "\"elevation_deg\": 20, \"azimuth_deg\": 90",
                    "\"offset_from_sun_deg\": [3, -6], \"distance_m\": 5e8");

@@ -290,6 +290,8 @@ static void faults_of_bodies_are_told(void **state)
         {"\"name\": \"Moon\"", "\"name\": \"comment\"",
          "t.json:13:25: bodies[0].name: must have at most 64 bytes and not be \"comment\""},
         {"0.1 } ]", "-0.1 } ]", "t.json:14:25: bodies[0].geometric_albedo: is -0.1; must be"},
+        {"0.1 } ]", "0.1, \"phase_law\": \"moon\" } ]",
+         "t.json:14:43: bodies[0].phase_law: is \"moon\"; the nearest known word"},
         {"0.1 } ]",
          "0.1 }, {\"name\": \"Moon\", \"radius_m\": 1, \"distance_m\": 1e9, "
          "\"geometric_albedo\": 0} ]",
