@@ -324,8 +324,14 @@ void table_slice(const struct table *table, const struct optics *optics, int cha
     }
 }
 
+// With a negative part light goes on to fall as it does between the two, at least by a factor e for
+// a whole one.
 static float interpolate_log(float a, float b, float part)
 {
+    if (part < 0) {
+        const float fall = a > 0 && b > 0 ? logf(b) - logf(a) : 0;
+        return a * expf(fmaxf(fall, 1) * part);
+    }
     return a > 0 && b > 0 ? expf(logf(a) + (logf(b) - logf(a)) * part) : a + (b - a) * part;
 }
 
@@ -333,9 +339,14 @@ void table_slice_at_sun(const struct table *table, const struct optics *optics, 
                         double radius_m, double sun_mu, float *texels)
 {
     const struct cell altitude = altitude_cell(table, optics, radius_m);
-    const struct cell sun = cell_at(
+    struct cell sun = cell_at(
         sky_map_sun(sun_mu, table->sun_centre, table->sun_width, table->sun_first, table->sun_last),
         table->size.suns);
+    const double z = asinh((sun_mu - table->sun_centre) / table->sun_width);
+    if (z < table->sun_first) {
+        sun.part = (float)((z - table->sun_first) / (table->sun_last - table->sun_first) *
+                           (table->size.suns - 1));
+    }
     const size_t row = (size_t)table->size.azimuths * TEXEL_FLOATS;
     const float *a = slice_of(table, channel, altitude.below);
     const float *b = slice_of(table, channel, altitude.below + 1);

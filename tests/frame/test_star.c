@@ -123,11 +123,27 @@ static void a_star_beside_or_behind_the_picture_is_not_seen(void **state)
     }
 }
 
+// The tables end in deep twilight: what is left there must not stay for the night. Of a sky that
+// gives some 1e4 lx by day, and of starlight's 5e-4 lx.
+static void twilight_goes_out(void **state)
+{
+    const double altitudes_m[] = {10, 400000};
+    for (int i = 0; i < 2; i++) {
+        trl_view view = view_of_space(0, i ? -19 : 20, 60);
+        view.altitude_m = altitudes_m[i];
+        view.sun_latitude_or_elevation_rad = -80 * PI / 180;
+        assert_true(draw_light(*state, &view) < 1e-6);
+        view.sun_latitude_or_elevation_rad = -10 * PI / 180;
+        assert_true(draw_light(*state, &view) > 0.1);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_disc_has_all_the_light_wherever_it_is_in_the_picture),
         cmocka_unit_test(a_star_beside_or_behind_the_picture_is_not_seen),
+        cmocka_unit_test(twilight_goes_out),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -132,7 +132,12 @@ vec3 sky_light(Ray ray)
     float sun = outside ? sun_coordinate(sun_mu) : 0.0;
     vec3 at = vec3(centre(sky_map_azimuth(azimuth_cosine(mu, sun_mu, ray.nu)), u_slice_texel.x),
                    centre(sun, u_slice_texel.y), centre(view, u_slice_texel.z));
-    return ray.chord_m > 0.0 ? join_slice(at, ray.nu) : vec3(0.0);
+    // Lower suns than the lowest of the table: light goes on to fall, by a factor e for some 0.15
+    // dips of the horizon.
+    float beyond =
+        outside ? min(sky_map_asinh((sun_mu - u_sun_grid.x) / u_sun_grid.y) - u_sun_grid.z, 0.0)
+                : 0.0;
+    return ray.chord_m > 0.0 ? join_slice(at, ray.nu) * exp(9.3 * beyond) : vec3(0.0);
 }
 
 // The row of a ray in the maps of aerial perspective, as a texture coordinate.
