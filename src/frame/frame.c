@@ -34,13 +34,23 @@ static trl_result make_passes(struct frame *frame, const struct frame_desc *desc
     return result == TRL_OK ? trl_progress(frame->ctx, "building programs", 1) : result;
 }
 
+static void describe_bodies(struct frame *frame)
+{
+    for (size_t i = 0; i < frame->scene->body_count; i++) {
+        const struct scene_body *body = &frame->scene->bodies[i];
+        frame->bodies[i] = (struct body_desc){&body->geometric_albedo, body->phase_law};
+    }
+}
+
 static struct sky_desc describe_sky(const struct frame *frame)
 {
     return (struct sky_desc){.gpu = frame->gpu,
                              .medium = &frame->medium,
                              .wavelengths = frame->wavelengths,
                              .orders = frame->orders,
-                             .rayleigh = &frame->rayleigh};
+                             .rayleigh = &frame->rayleigh,
+                             .body_count = frame->scene->body_count,
+                             .bodies = frame->bodies};
 }
 
 trl_result frame_set_sky_model(struct frame *frame, trl_sky_model model)
@@ -83,21 +93,12 @@ bool frame_is_settled(const struct frame *frame)
     return sky_is_settled(&frame->skies[frame->sky_model]);
 }
 
-static void describe_bodies(const struct trl_scene *scene, struct body_desc out[SCENE_MAX_BODIES])
-{
-    for (size_t i = 0; i < scene->body_count; i++) {
-        out[i] = (struct body_desc){&scene->bodies[i].geometric_albedo, scene->bodies[i].phase_law};
-    }
-}
-
 // What is beyond the air. A catalogue that may be missing is left out when it is.
 static trl_result make_space(struct frame *frame)
 {
     const struct trl_scene *scene = frame->scene;
     const struct scene_stars *stars = &scene->stars;
     const bool is_left_out = stars->is_optional && stars->path && access(stars->path, F_OK) != 0;
-    struct body_desc bodies[SCENE_MAX_BODIES];
-    describe_bodies(scene, bodies);
     struct space_desc desc = {.gpu = frame->gpu,
                               .medium = &frame->medium,
                               .catalogue_path = is_left_out ? NULL : stars->path,
@@ -106,7 +107,7 @@ static trl_result make_space(struct frame *frame)
                               .pole_declination_rad = stars->pole_declination_rad,
                               .background_cd_m2 = stars->background_cd_m2,
                               .body_count = scene->body_count,
-                              .bodies = bodies};
+                              .bodies = frame->bodies};
     daylight_ground_albedo(&scene->medium, desc.ground_albedo);
     if (is_left_out) {
         trl_log(frame->ctx, TRL_LOG_INFO, TRL_LOG_ITEM_SCENE, "no stars: there is no file %s",
@@ -123,6 +124,7 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
                           .wavelengths = desc->wavelengths,
                           .orders = desc->orders,
                           .rayleigh = desc->rayleigh};
+    describe_bodies(out);
     trl_result result = medium_copy(desc->ctx, &desc->scene->medium, &out->medium);
     if (result == TRL_OK) {
         result = open_gpu(desc, &out->gpu);
@@ -250,16 +252,24 @@ struct camera_place frame_place(const struct frame *frame, double latitude_rad,
 static trl_result draw_radiance(struct frame *frame, const struct camera *camera,
                                 double sidereal_rad)
 {
-    trl_result result = ground_draw(&frame->ground, camera, &frame->clock);
+    struct sky *sky = &frame->skies[frame->sky_model];
+    const double highest_m = ground_highest_m(&frame->ground);
+    const struct sky_moon moon = sky_find_moon(sky, camera, highest_m);
+    struct camera shading = *camera;
+    if (moon.is_main) {
+        shading.sun_direction = moon.sight.direction;
+    }
+    trl_result result = ground_draw(&frame->ground, &shading, &frame->clock);
     const struct sky_view view = {.camera = camera,
-                                  .highest_m = ground_highest_m(&frame->ground),
+                                  .highest_m = highest_m,
                                   .surface = ground_surface(&frame->ground),
                                   .spheres = frame->spheres,
 
                                   .shadow = ground_shadow(&frame->ground),
-                                  .air = frame->air,
+                                  .moon = moon,
+                                  // Only the star's shadow is marched through the air.
+                                  .air = moon.is_main ? TRL_AIR_TABLE : frame->air,
                                   .target = &frame->radiance_target};
-    struct sky *sky = &frame->skies[frame->sky_model];
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "sky maps");
         result = sky_prepare(sky, &view);

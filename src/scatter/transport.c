@@ -335,6 +335,11 @@ LANES_INLINE lanes irradiance_at(const struct moments *m, double mu)
     return sum;
 }
 
+lanes moments_irradiance(const struct moments *moments, double mu)
+{
+    return irradiance_at(moments, mu);
+}
+
 LANES_CLONES void transport_add_ground(const struct sunlight *sun, const struct moments *moments,
                                        const struct ray *ray, const struct transport_family *family,
                                        lanes *radiance)

@@ -43,6 +43,10 @@ void moments_add(struct moments *y, const struct moments *x, lanes factor);
 double moments_sun_mu(const struct moments *moments, int sun);         // of a grid point
 double moments_level_radius(const struct moments *moments, int level); // m
 
+// Irradiance of level ground at the reference radius by the sky, per unit irradiance of the star,
+// at the cosine of the star's zenith angle.
+lanes moments_irradiance(const struct moments *moments, double mu);
+
 // What varies under one ray: the star's zenith angle at the eye, and the angle between ray and
 // star.
 struct transport_family {

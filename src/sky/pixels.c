@@ -163,7 +163,9 @@ trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct sky_view *vie
 trl_result sky_pixels_draw(const struct sky_pixels *pixels, struct gpu_program *program,
                            enum sky_kind kind, const struct sky_view *view)
 {
-    struct gpu_pass pass = {.target = view->target, .state.depth = GPU_DEPTH_NEARER};
+    struct gpu_pass pass = {.target = view->target,
+                            .state = {.depth = GPU_DEPTH_NEARER,
+                                      .blend = view->is_added ? GPU_BLEND_ADD : GPU_BLEND_NONE}};
     if (kind == SKY_KIND_STAR) {
         const struct camera *camera = view->camera;
         pass.scissor = sky_find_disc(camera, view->target, camera->sun_direction, pixels->shown_rad);

@@ -59,6 +59,12 @@ trl_result sky_change(struct sky *sky, const struct sky_desc *desc)
     return result;
 }
 
+struct sky_moon sky_find_moon(const struct sky *sky, const struct camera *camera, double highest_m)
+{
+    return sky->model->find_moon ? sky->model->find_moon(sky->self, camera, highest_m)
+                                 : (struct sky_moon){0};
+}
+
 bool sky_is_settled(const struct sky *sky)
 {
     return !sky->self || !sky->model->is_settled || sky->model->is_settled(sky->self);

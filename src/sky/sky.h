@@ -13,6 +13,7 @@
 #include "base/camera.h"
 #include "gpu/pass.h"
 #include "scatter/medium.h"
+#include "sky/body_light.h"
 #include <terrella/renderer.h>
 
 struct sky_desc {
@@ -21,6 +22,19 @@ struct sky_desc {
     uint32_t wavelengths;              // to solve for, by models that solve
     uint32_t orders;                   // of scattering, by models that know several; 0: all
     const trl_rayleigh_desc *rayleigh; // needed during create only, checked
+    size_t body_count;                 // CAMERA_MAX_BODIES at most
+    const struct body_desc *bodies; // needed during create only, but for the spectra in it, which
+                                    // must outlive the sky
+};
+
+// A body that lights ground and air so that it can be seen, beside the star.
+struct sky_moon {
+    bool is_there;
+    // It lights the ground below the eye more than the star does, which shines on no ground in
+    // sight: then terrain's shadow is the body's.
+    bool is_main;
+    unsigned index;          // in the scene's list
+    struct body_sight sight; // from the ground below the eye
 };
 
 struct sky_surface {
@@ -51,7 +65,9 @@ struct sky_view {
     struct sky_surface surface;
     struct sky_spheres spheres;
 
-    struct sky_shadow shadow;
+    struct sky_shadow shadow; // of the body that is main, else of the star
+    struct sky_moon moon;
+    bool is_added; // to what the target holds
     trl_air air;
     const struct gpu_target *target; // with a depth texture that nobody else uses meanwhile
 };
@@ -73,6 +89,8 @@ struct sky_model {
     trl_result (*change)(void *self, const struct medium *medium);
     // Whether draws show the medium last changed to, as fine as it gets. NULL: always.
     bool (*is_settled)(const void *self);
+    // The body whose light counts in this view. NULL: the model knows no light but the star's.
+    struct sky_moon (*find_moon)(const void *self, const struct camera *camera, double highest_m);
 };
 
 extern const struct sky_model sky_spectral; // spectral.c
@@ -94,6 +112,8 @@ TRL_MUST_USE trl_result sky_prepare(struct sky *sky, const struct sky_view *view
 TRL_MUST_USE trl_result sky_draw(struct sky *sky, const struct sky_view *view);
 // The desc as for sky_init, with the new medium.
 TRL_MUST_USE trl_result sky_change(struct sky *sky, const struct sky_desc *desc);
+// None where the model knows none.
+struct sky_moon sky_find_moon(const struct sky *sky, const struct camera *camera, double highest_m);
 bool sky_is_settled(const struct sky *sky);
 
 #endif // SKY_SKY_H

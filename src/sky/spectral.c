@@ -6,6 +6,7 @@
 #include "sky/eclipse.h"
 #include "sky/ground_light.h"
 #include "sky/march.h"
+#include "sky/moonlight.h"
 #include "sky/pixels.h"
 #include "sky/spectral_maps.h"
 #include "spectrum/cie.h"
@@ -28,13 +29,11 @@ struct spectral {
     struct spectral_programs programs[TRL_AIR_MARCH + 1][2];
     struct sky_eclipse eclipse;
     struct sky_march march;
+    struct moonlight moonlight;
     struct atmosphere_desc desc;
     struct resolver *resolver; // of a medium that was changed to, or NULL
 };
 
-static const char *const SLICE_NAMES[] = {"u_slice0", "u_slice1", "u_slice2", "u_slice3"};
-static const char *const SCATTERED_NAMES[] = {"u_scattered0", "u_scattered1", "u_scattered2",
-                                              "u_scattered3"};
 static const char *const SOURCE_NAMES[] = {"u_source0", "u_source1", "u_source2", "u_source3",
                                            "u_source_multiple"};
 
@@ -118,6 +117,7 @@ static trl_result init(const struct sky_desc *desc, struct spectral *sky)
     }
     if (result == TRL_OK) {
         sky_march_init(&sky->pixels, &sky->march);
+        moonlight_init(desc, &sky->moonlight);
         result = make_programs(sky, (struct shades){0});
     }
     return result;
@@ -127,6 +127,7 @@ static void spectral_destroy(void **self)
 {
     struct spectral *sky = *self;
     resolver_destroy(&sky->resolver);
+    moonlight_finish(&sky->moonlight);
     sky_march_finish(&sky->march);
     sky_eclipse_finish(&sky->eclipse);
     finish_programs(sky);
@@ -174,6 +175,7 @@ static trl_result adopt_solved(struct spectral *sky)
         return result;
     }
     const bool has_programs = maps.atmosphere->peaked.count == sky->maps.atmosphere->peaked.count;
+    moonlight_drop(&sky->moonlight);
     spectral_maps_finish(&sky->maps);
     sky->maps = maps;
     sky->pixels.top_radius_m = maps.atmosphere->optics->top_radius_m;
@@ -196,6 +198,9 @@ static trl_result spectral_change(void *self, const struct medium *medium)
     trl_result result = TRL_OK;
     if (medium->constituent_count == count) {
         result = spectral_maps_set_phases(&sky->maps, medium);
+    }
+    if (result == TRL_OK && medium->constituent_count == count && sky->moonlight.maps.atmosphere) {
+        result = spectral_maps_set_phases(&sky->moonlight.maps, medium);
     }
     return result == TRL_OK ? resolver_start(sky->ctx, medium, &sky->desc, &sky->resolver) : result;
 }
@@ -242,7 +247,17 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
         sky->eclipse.orders = (int)sky->desc.orders;
         result = sky_eclipse_update(&sky->pixels, camera, sky->maps.atmosphere, &sky->eclipse);
     }
-    return result == TRL_OK ? spectral_maps_update(&sky->maps, &eye) : result;
+    if (result == TRL_OK) {
+        result = spectral_maps_update(&sky->maps, &eye);
+    }
+    return result == TRL_OK ? moonlight_prepare(&sky->moonlight, &sky->maps, view) : result;
+}
+
+static struct sky_moon spectral_find_moon(const void *self, const struct camera *camera,
+                                          double highest_m)
+{
+    const struct spectral *sky = self;
+    return moonlight_find(&sky->moonlight, sky->maps.atmosphere, camera, highest_m);
 }
 
 // XYZ to the picture's primaries.
@@ -257,38 +272,10 @@ static void set_xyz(struct gpu_program *program)
     gpu_program_set_vec4s(program, "u_rgb_from_xyz", rgb_from_xyz, 3);
 }
 
-static void set_maps(const struct spectral *sky, struct gpu_program *program)
-{
-    const struct table *table = &sky->maps.atmosphere->table;
-    const float aerial_rows[2] = {AERIAL_GROUND_ROWS, AERIAL_ROWS};
-    const float light_texel[2] = {1.0f / GROUND_LIGHT_SUNS, 1.0f / (float)sky->maps.skylight.width};
-    sky_set_vec3(
-        program, "u_slice_texel",
-        (struct vec3){1.0 / table->size.azimuths, 1.0 / table->size.suns, 1.0 / table->size.views});
-    sky_set_vec3(program, "u_aerial_texel",
-                 (struct vec3){1.0 / AERIAL_LONG, 1.0 / AERIAL_SHORT, 1.0 / AERIAL_ROWS});
-    gpu_program_set_vec2(program, "u_aerial_rows", aerial_rows);
-    sky_set_vec4(program, "u_rows", sky->maps.aerial.nearest_m, sky->maps.aerial.farthest_m,
-                 sky->maps.aerial.horizon_mu, sky->maps.aerial.highest_mu);
-    sky_set_vec4(program, "u_ground_light", 0, sky->maps.highest_m, SUNLIGHT_SOFT,
-                 1.0 / GROUND_LIGHT_ALTITUDES);
-    sky_set_vec4(program, "u_sun_grid", table->sun_centre, table->sun_width, table->sun_first,
-                 table->sun_last);
-    gpu_program_set_vec2(program, "u_light_texel", light_texel);
-    for (int c = 0; c < table->channels; c++) {
-        gpu_program_set_texture(program, SLICE_NAMES[c], &sky->maps.slice[c]);
-        gpu_program_set_texture(program, SCATTERED_NAMES[c], &sky->maps.scattered[c]);
-    }
-    gpu_program_set_texture(program, "u_extinction", &sky->maps.extinction);
-    gpu_program_set_texture(program, "u_sunlight", &sky->maps.sunlight);
-    gpu_program_set_texture(program, "u_skylight", &sky->maps.skylight);
-    gpu_program_set_texture(program, "u_phase", &sky->maps.phase);
-}
-
 static void set_sources(const void *self, struct gpu_program *program)
 {
     const struct spectral *sky = self;
-    set_maps(sky, program);
+    spectral_maps_bind(&sky->maps, program);
     for (int c = 0; c < AERIAL_SOURCES; c++) {
         if (sky->maps.source[c].name) {
             gpu_program_set_texture(program, SOURCE_NAMES[c], &sky->maps.source[c]);
@@ -314,7 +301,7 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
     sky_set_bands(program, &sky->maps.atmosphere->bands, sky->maps.atmosphere->optics,
                   view->surface.lights_cd_m2);
     set_xyz(program);
-    set_maps(sky, program);
+    spectral_maps_bind(&sky->maps, program);
     const struct shades shades = find_shades(sky, view);
     if (shades.has_march) {
         sky_march_bind(&sky->march, program);
@@ -347,7 +334,10 @@ static trl_result spectral_draw(void *self, const struct sky_view *view)
     if (result == TRL_OK) {
         result = draw_kind(sky, &programs->star, SKY_KIND_STAR, view);
     }
-    return result == TRL_OK ? draw_kind(sky, ground, SKY_KIND_GROUND, view) : result;
+    if (result == TRL_OK) {
+        result = draw_kind(sky, ground, SKY_KIND_GROUND, view);
+    }
+    return result == TRL_OK ? moonlight_draw(&sky->moonlight, &sky->pixels, view) : result;
 }
 
 const struct sky_model sky_spectral = {.create = spectral_create,
@@ -355,4 +345,5 @@ const struct sky_model sky_spectral = {.create = spectral_create,
                                        .prepare = spectral_prepare,
                                        .draw = spectral_draw,
                                        .change = spectral_change,
-                                       .is_settled = spectral_is_settled};
+                                       .is_settled = spectral_is_settled,
+                                       .find_moon = spectral_find_moon};

@@ -3,10 +3,15 @@
 #include "sky/spectral_maps.h"
 
 #include "sky/ground_light.h"
+#include "sky/pixels.h"
 
 #include <math.h>
 
 enum { PHASE_SAMPLES = 1024 };
+
+static const char *const SLICE_NAMES[] = {"u_slice0", "u_slice1", "u_slice2", "u_slice3"};
+static const char *const SCATTERED_NAMES[] = {"u_scattered0", "u_scattered1", "u_scattered2",
+                                              "u_scattered3"};
 
 static trl_result make_texture(struct gpu *gpu, const char *label, uint32_t width, uint32_t height,
                                uint32_t depth, struct gpu_texture *out)
@@ -77,10 +82,8 @@ trl_result spectral_maps_set_phases(struct spectral_maps *maps, const struct med
     return result;
 }
 
-trl_result spectral_maps_init(struct gpu *gpu, struct atmosphere *atmosphere,
-                              struct spectral_maps *out)
+static trl_result init(struct atmosphere *atmosphere, struct spectral_maps *out)
 {
-    *out = (struct spectral_maps){.gpu = gpu, .atmosphere = atmosphere, .highest_m = -1};
     const struct table_size n = atmosphere->table.size;
     out->texels = mem_alloc(atmosphere->ctx, (size_t)n.views * n.suns * n.azimuths * TEXEL_FLOATS,
                             sizeof(float));
@@ -95,6 +98,20 @@ trl_result spectral_maps_init(struct gpu *gpu, struct atmosphere *atmosphere,
         spectral_maps_finish(out);
     }
     return result;
+}
+
+trl_result spectral_maps_init(struct gpu *gpu, struct atmosphere *atmosphere,
+                              struct spectral_maps *out)
+{
+    *out = (struct spectral_maps){.gpu = gpu, .atmosphere = atmosphere, .highest_m = -1};
+    return init(atmosphere, out);
+}
+
+trl_result spectral_maps_init_beside(const struct spectral_maps *others, struct spectral_maps *out)
+{
+    *out = (struct spectral_maps){
+        .gpu = others->gpu, .atmosphere = others->atmosphere, .is_guest = true, .highest_m = -1};
+    return init(others->atmosphere, out);
 }
 
 void spectral_maps_finish(struct spectral_maps *maps)
@@ -115,7 +132,9 @@ void spectral_maps_finish(struct spectral_maps *maps)
     gpu_texture_finish(&maps->phase);
     mem_free(maps->atmosphere->ctx, maps->texels);
     aerial_finish(&maps->aerial);
-    atmosphere_destroy(&maps->atmosphere);
+    if (!maps->is_guest) {
+        atmosphere_destroy(&maps->atmosphere);
+    }
     *maps = (struct spectral_maps){0};
 }
 
@@ -232,4 +251,32 @@ trl_result spectral_maps_update(struct spectral_maps *maps, const struct spectra
         result = update_aerial(maps, eye->radius_m, eye->sun_mu);
     }
     return result == TRL_OK ? update_ground_light(maps, eye->highest_m) : result;
+}
+
+void spectral_maps_bind(const struct spectral_maps *maps, struct gpu_program *program)
+{
+    const struct table *table = &maps->atmosphere->table;
+    const float aerial_rows[2] = {AERIAL_GROUND_ROWS, AERIAL_ROWS};
+    const float light_texel[2] = {1.0f / GROUND_LIGHT_SUNS, 1.0f / (float)maps->skylight.width};
+    sky_set_vec3(
+        program, "u_slice_texel",
+        (struct vec3){1.0 / table->size.azimuths, 1.0 / table->size.suns, 1.0 / table->size.views});
+    sky_set_vec3(program, "u_aerial_texel",
+                 (struct vec3){1.0 / AERIAL_LONG, 1.0 / AERIAL_SHORT, 1.0 / AERIAL_ROWS});
+    gpu_program_set_vec2(program, "u_aerial_rows", aerial_rows);
+    sky_set_vec4(program, "u_rows", maps->aerial.nearest_m, maps->aerial.farthest_m,
+                 maps->aerial.horizon_mu, maps->aerial.highest_mu);
+    sky_set_vec4(program, "u_ground_light", 0, maps->highest_m, SUNLIGHT_SOFT,
+                 1.0 / GROUND_LIGHT_ALTITUDES);
+    sky_set_vec4(program, "u_sun_grid", table->sun_centre, table->sun_width, table->sun_first,
+                 table->sun_last);
+    gpu_program_set_vec2(program, "u_light_texel", light_texel);
+    for (int c = 0; c < table->channels; c++) {
+        gpu_program_set_texture(program, SLICE_NAMES[c], &maps->slice[c]);
+        gpu_program_set_texture(program, SCATTERED_NAMES[c], &maps->scattered[c]);
+    }
+    gpu_program_set_texture(program, "u_extinction", &maps->extinction);
+    gpu_program_set_texture(program, "u_sunlight", &maps->sunlight);
+    gpu_program_set_texture(program, "u_skylight", &maps->skylight);
+    gpu_program_set_texture(program, "u_phase", &maps->phase);
 }

@@ -17,12 +17,13 @@
 // Slice, scattered and source hold logarithms of XYZ in cd m^-2; the others four bands per unit
 // irradiance of the star (scatter/bands.h).
 
-#include "gpu/texture.h"
+#include "gpu/program.h"
 #include "scatter/aerial.h"
 
 struct spectral_maps {
     struct gpu *gpu;
-    struct atmosphere *atmosphere; // owned
+    struct atmosphere *atmosphere; // owned, unless:
+    bool is_guest;                 // the atmosphere is that of other maps, which outlive these
     struct aerial aerial;
     struct gpu_texture slice[1 + TABLE_MAX_PEAKED];
     struct gpu_texture scattered[1 + TABLE_MAX_PEAKED];
@@ -39,6 +40,9 @@ struct spectral_maps {
 // filtered float textures).
 TRL_MUST_USE trl_result spectral_maps_init(struct gpu *gpu, struct atmosphere *atmosphere,
                                            struct spectral_maps *out);
+// The same for another star in the same atmosphere.
+TRL_MUST_USE trl_result spectral_maps_init_beside(const struct spectral_maps *others,
+                                                  struct spectral_maps *out);
 void spectral_maps_finish(struct spectral_maps *maps);
 
 // From the next update on there is a source. Does nothing the second time.
@@ -60,5 +64,8 @@ TRL_MUST_USE trl_result spectral_maps_update(struct spectral_maps *maps,
 // the medium is solved.
 TRL_MUST_USE trl_result spectral_maps_set_phases(struct spectral_maps *maps,
                                                  const struct medium *medium);
+
+// Hands them to a program of shaders/sky/spectral/, all but the sources.
+void spectral_maps_bind(const struct spectral_maps *maps, struct gpu_program *program);
 
 #endif // SKY_SPECTRAL_MAPS_H

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Radiance of pixels with ground: lit by star and sky, behind air. With SURFACE the ground comes
-// from the surface buffers, else it is the bare reference sphere.
+// from the surface buffers, else it is the bare reference sphere. With MOON a body stands for the
+// star, and its light is added to what is there.
 // validate: PEAKED_COUNT 1
 // validate: PEAKED_COUNT 0
 // validate: PEAKED_COUNT 3; SURFACE
 // validate: PEAKED_COUNT 1; SURFACE; MARCH
 // validate: PEAKED_COUNT 1; SURFACE; MARCH; ECLIPSE
 // validate: PEAKED_COUNT 1; ECLIPSE
+// validate: PEAKED_COUNT 1; MOON
+// validate: PEAKED_COUNT 1; SURFACE; MOON
 
 #include "sky/ground.glsl"
 #include "sky/spectral/air.glsl"
@@ -25,6 +28,10 @@ uniform vec4 u_ground_albedo; // in the bands, of the bare sphere and of the lan
 #ifdef SURFACE
 uniform vec4 u_bands_from_rgb[3]; // columns
 uniform vec4 u_bands_of_light[3]; // columns: bands that show lights of this colour
+#endif
+
+#ifdef MOON
+uniform float u_shadowed; // 1: terrain's shadow is the body's; 0: there is none
 #endif
 
 layout(location = 0) out vec4 out_radiance;
@@ -84,6 +91,9 @@ void main()
 {
     Ray ray;
     Ground ground = find_ground(ray);
+#ifdef MOON
+    ground.star_visible = mix(1.0, ground.star_visible, u_shadowed);
+#endif
     Air air = air_before(ray, ground.distance_m);
 #ifdef MARCH
     air.scattered *= share_before(v_uv, ground.distance_m);

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Radiance of pixels without ground: the air in front of space, with STAR also the star's disc.
+// With MOON a body stands for the star, and its light is added to what is there.
 // validate: PEAKED_COUNT 1
 // validate: PEAKED_COUNT 0; STAR
 // validate: PEAKED_COUNT 3; STAR
 // validate: PEAKED_COUNT 1; MARCH
 // validate: PEAKED_COUNT 1; STAR; MARCH; ECLIPSE
+// validate: PEAKED_COUNT 1; MOON
 
 #include "sky/disc.glsl"
 #include "sky/spectral/air.glsl"
