@@ -106,6 +106,7 @@ static trl_result make_space(struct frame *frame)
                               .pole_right_ascension_rad = stars->pole_right_ascension_rad,
                               .pole_declination_rad = stars->pole_declination_rad,
                               .background_cd_m2 = stars->background_cd_m2,
+                              .airglow_share = stars->airglow_share,
                               .body_count = scene->body_count,
                               .bodies = frame->bodies};
     daylight_ground_albedo(&scene->medium, desc.ground_albedo);

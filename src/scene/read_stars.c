@@ -42,11 +42,14 @@ trl_result scene_read_stars(const struct scene_node *root, struct trl_scene *out
         return TRL_OK;
     }
     const char *const keys[] = {"catalogue", "optional",         "limit_magnitude",
-                                "pole",      "background_cd_m2", NULL};
+                                "pole",      "background_cd_m2", "airglow_share",
+                                NULL};
     const struct scene_range magnitudes = {.min = -30, .max = 30};
     const struct scene_range luminances = {.min = 0, .max = 1e6};
+    const struct scene_range shares = {.min = 0, .max = 1};
     const struct scene_node limit = scene_node_member(&stars, "limit_magnitude");
     const struct scene_node background = scene_node_member(&stars, "background_cd_m2");
+    const struct scene_node airglow = scene_node_member(&stars, "airglow_share");
     out->stars = (struct scene_stars){.limit_magnitude = magnitudes.max,
                                       .pole_declination_rad = 90 * SCENE_RADIANS_PER_DEGREE};
     trl_result result = scene_node_check_keys(&stars, keys);
@@ -59,7 +62,9 @@ trl_result scene_read_stars(const struct scene_node *root, struct trl_scene *out
     if (result == TRL_OK) {
         result = read_pole(&stars, &out->stars);
     }
-    return result == TRL_OK
-               ? scene_node_number_or(&background, &luminances, &out->stars.background_cd_m2)
-               : result;
+    if (result == TRL_OK) {
+        result = scene_node_number_or(&background, &luminances, &out->stars.background_cd_m2);
+    }
+    return result == TRL_OK ? scene_node_number_or(&airglow, &shares, &out->stars.airglow_share)
+                            : result;
 }

@@ -56,7 +56,8 @@ struct scene_stars {
     bool is_optional;
     double limit_magnitude;                                // fainter ones are left out
     double pole_right_ascension_rad, pole_declination_rad; // of the planet's north pole
-    double background_cd_m2; // of everything that is no single star; 0: none
+    double background_cd_m2; // at the zenith, of everything that is no single star; 0: none
+    double airglow_share;    // of it
 };
 
 struct trl_scene {

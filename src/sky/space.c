@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "sky/space.h"
 
+#include "sky/airglow.h"
 #include "sky/pixels.h"
 
 #include <math.h>
@@ -53,7 +54,8 @@ trl_result space_init(const struct space_desc *desc, struct space *out)
 {
     *out = (struct space){.gpu = desc->gpu,
                           .ground_radius_m = desc->medium->ground_radius_m,
-                          .background_cd_m2 = desc->background_cd_m2};
+                          .background_cd_m2 = desc->background_cd_m2,
+                          .airglow_share = desc->airglow_share};
     memcpy(out->ground_albedo, desc->ground_albedo, sizeof out->ground_albedo);
     trl_result result = extinction_init(desc->gpu->ctx, desc->medium, &out->extinction);
     if (result == TRL_OK && desc->catalogue_path) {
@@ -94,19 +96,63 @@ void space_change(struct space *space)
     extinction_change(&space->extinction);
 }
 
+static void set_vec3(struct gpu_program *program, const char *name, const double values[3],
+                     double scale)
+{
+    sky_set_vec3(program, name,
+                 (struct vec3){scale * values[0], scale * values[1], scale * values[2]});
+}
+
+// For an eye outside the air it is the same from everywhere.
+static struct airglow find_airglow(const struct space *space)
+{
+    const struct extinction *e = &space->extinction;
+    return airglow_find(e->radius_m < e->optics->top_radius_m ? space->airglow_share : 0, e);
+}
+
 static trl_result draw_layer(struct space *space, struct gpu_program *program, enum gpu_depth depth,
                              const struct sky_view *view)
 {
     const struct gpu_pass pass = {.target = view->target,
                                   .state = {.depth = depth, .blend = GPU_BLEND_ADD}};
-    gpu_program_set_float(program, "u_background", (float)space->background_cd_m2);
+    gpu_program_set_float(program, "u_depth", 0.75f);
+    gpu_pass_begin(space->gpu, &pass);
+    return gpu_draw_fullscreen(program, "sky background");
+}
+
+static trl_result draw_sky(struct space *space, const struct sky_view *view)
+{
+    struct gpu_program *program = &space->background;
+    const struct camera *camera = view->camera;
+    const struct airglow airglow = find_airglow(space);
+    const struct vec3 zenith = vec3_normalize(camera->position_m);
+    const double even[3] = {1, 1, 1}, none[3] = {0, 0, 0};
+    const float tan_half[2] = {(float)camera->tan_half_fov_x, (float)camera->tan_half_fov_y};
+    const float layer[2] = {(float)airglow.share, (float)airglow.layer};
+    set_vec3(program, "u_background", even, space->background_cd_m2);
+    set_vec3(program, "u_depth_rgb", airglow.share > 0 ? airglow.depth : none, 1);
+    gpu_program_set_vec2(program, "u_airglow", layer);
+    gpu_program_set_vec2(program, "u_tan", tan_half);
+    sky_set_vec3(program, "u_zenith",
+                 (struct vec3){vec3_dot(zenith, camera->forward),
+                               vec3_dot(zenith, camera->right) * camera->tan_half_fov_x,
+                               vec3_dot(zenith, camera->up) * camera->tan_half_fov_y});
+    return draw_layer(space, program, GPU_DEPTH_NEARER, view);
+}
+
+static trl_result draw_ground(struct space *space, const struct sky_view *view)
+{
+    struct gpu_program *program =
+        sky_view_is_bare(view) ? &space->ground_bare : &space->ground_surface;
+    const struct airglow airglow = find_airglow(space);
+    double mean[3];
+    airglow_mean(&airglow, mean);
+    set_vec3(program, "u_background", mean, space->background_cd_m2);
     gpu_program_set_vec3(program, "u_ground_albedo", space->ground_albedo);
     if (view->surface.albedo) {
         gpu_program_set_texture(program, "u_albedo", view->surface.albedo);
     }
-    gpu_program_set_float(program, "u_depth", 0.75f);
-    gpu_pass_begin(space->gpu, &pass);
-    return gpu_draw_fullscreen(program, "sky background");
+    return draw_layer(space, program, GPU_DEPTH_FARTHER, view);
 }
 
 static trl_result draw_background(struct space *space, const struct sky_view *view)
@@ -115,10 +161,8 @@ static trl_result draw_background(struct space *space, const struct sky_view *vi
     if (!(space->background_cd_m2 > 0) || vec3_dot(zenith, view->camera->sun_direction) > DAY_MU) {
         return TRL_OK;
     }
-    struct gpu_program *ground =
-        sky_view_is_bare(view) ? &space->ground_bare : &space->ground_surface;
-    const trl_result result = draw_layer(space, &space->background, GPU_DEPTH_NEARER, view);
-    return result == TRL_OK ? draw_layer(space, ground, GPU_DEPTH_FARTHER, view) : result;
+    const trl_result result = draw_sky(space, view);
+    return result == TRL_OK ? draw_ground(space, view) : result;
 }
 
 trl_result space_draw(struct space *space, const struct sky_view *view, double sidereal_rad)

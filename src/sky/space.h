@@ -16,7 +16,7 @@ struct space {
     struct stars stars;
     struct bodies bodies;
     struct sprites sprites; // of stars and bodies; none: not made
-    double background_cd_m2;
+    double background_cd_m2, airglow_share;
     float ground_albedo[3]; // linear sRGB, of a bare sphere
     struct gpu_program background, ground_bare, ground_surface;
 };
@@ -27,7 +27,8 @@ struct space_desc {
     const char *catalogue_path;  // NULL: no stars
     double limit_magnitude;
     double pole_right_ascension_rad, pole_declination_rad;
-    double background_cd_m2;
+    double background_cd_m2; // at the zenith
+    double airglow_share;    // of it
     float ground_albedo[3];
     size_t body_count;
     const struct body_desc *bodies; // needed during init only

@@ -3,6 +3,7 @@
 // Stars in pictures: their light, place and colour, and what takes them away.
 #include "fixture.h"
 #include "scene/scene.h"
+#include "sky/airglow.h"
 #include "sky/catalogue.h"
 #include "spectrum/starlight.h"
 #include <terrella/terrella.h>
@@ -368,6 +369,47 @@ static void faults_of_a_catalogue_are_told(void **state)
     assert_int_equal(trl_renderer_create(s->f->ctx, &desc, &s->renderer), TRL_OK);
 }
 
+// Patat 2003, A&A 400, Table C.1: how much brighter the sky is 50 degrees from the zenith than
+// there, in magnitudes of U, B, V; with the extinctions of Paranal (Table A.1) in magnitudes.
+static void airglow_rises_toward_the_horizon_as_published(void **state)
+{
+    (void)state;
+    const double extinction[3] = {0.43, 0.22, 0.11}, wanted[3] = {0.07, 0.18, 0.24};
+    struct airglow airglow = {.share = 0.6, .layer = 0.96};
+    for (int i = 0; i < 3; i++) {
+        airglow.depth[i] = extinction[i] * log(10) / 2.5;
+    }
+    double rgb[3];
+    airglow_at(&airglow, cos(50 * PI / 180), rgb);
+    for (int i = 0; i < 3; i++) {
+        assert_true(fabs(2.5 * log10(rgb[i]) - wanted[i]) < 0.01); // its digits, rounded
+    }
+}
+
+// Without extinction.
+static void pictures_show_airglow(void **state)
+{
+    struct setup *s = *state;
+    make_sky(s, 0);
+    s->scene->stars.background_cd_m2 = 1e-3;
+    s->scene->stars.airglow_share = 0.6;
+    trl_renderer_destroy(&s->renderer);
+    trl_renderer_desc desc = trl_renderer_desc_default();
+    desc.scene = s->scene;
+    assert_int_equal(trl_renderer_create(s->f->ctx, &desc, &s->renderer), TRL_OK);
+    const double elevations_deg[] = {90, 40, 5};
+    for (int i = 0; i < 3; i++) {
+        trl_view view = view_toward(180, elevations_deg[i], 2);
+        view.latitude_rad = -0.5; // no star there
+        const struct found found = draw(s, &view, (struct size){16, 16});
+        const double solid_angle = pow(2 * tan(PI / 180), 2);
+        const double sine2 = 1 - pow(sin(elevations_deg[i] * PI / 180), 2);
+        const double path = 1 / sqrt(1 - pow(1e6 / 1.13e6, 2) * sine2);
+        const double wanted_cd_m2 = 1e-3 * (1 + 0.6 * (path - 1));
+        assert_true(fabs(found.lx / solid_angle / wanted_cd_m2 - 1) < 0.01); // 2 degrees are seen
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -379,9 +421,11 @@ int main(void)
         cmocka_unit_test(colours_follow_the_index),
         cmocka_unit_test(limits_leave_faint_stars_out_of_pictures),
         cmocka_unit_test(limits_leave_faint_stars_out),
+        cmocka_unit_test(airglow_rises_toward_the_horizon_as_published),
         // These make other skies.
         cmocka_unit_test(air_takes_light_by_the_way_through_it),
         cmocka_unit_test(a_tilted_pole_turns_the_sky),
+        cmocka_unit_test(pictures_show_airglow),
         cmocka_unit_test(faults_of_a_catalogue_are_told),
     };
     return cmocka_run_group_tests_name("stars", tests, set_up, tear_down);

@@ -132,6 +132,7 @@ CHANGES = [
     ("stars", {}, True), ("stars", 5, False), ("stars", {"catalogue": "s.csv", "optional": True}, True),
     ("stars", {"catalogue": "http://x"}, False), ("stars", {"catalogue": 3}, False),
     ("stars", {"limit_magnitude": 31}, False), ("stars", {"background_cd_m2": 2e-4}, True),
+    ("stars", {"airglow_share": 0.6}, True), ("stars", {"airglow_share": 1.1}, False),
     ("stars", {"background_cd_m2": -1}, False), ("stars", {"pole": {"declination_deg": 90}}, False),
     ("stars", {"pole": {"right_ascension_deg": 317.7, "declination_deg": 52.9}}, True),
     ("stars", {"color": 1}, False), ("views one sidereal_deg", 90, True),
