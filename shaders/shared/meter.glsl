@@ -21,9 +21,11 @@
 #define METER_EV_UNLIT 15.0 // of a picture without any light: that of a bright day
 
 // Below this mean luminance a picture gets darker by a quarter of a stop for each stop that the
-// scene does: dusk looks like dusk, and a moonless night is dark but can be seen.
+// scene does, and by less and less, until it stops: dusk looks like dusk, and what moonlight or
+// starlight shows is dark but can be seen.
 #define METER_LOG2_DIM 2.0 // 4 cd m^-2
 #define METER_DIM_SLOPE 0.25
+#define METER_DIM_MOST 2.5
 
 SHARED_FN Number meter_luminance(Number red, Number green, Number blue)
 {
@@ -41,7 +43,8 @@ SHARED_FN Number meter_counted(Number luminance, Number wall)
 SHARED_FN Number meter_exposure(Number weights, Number weighted)
 {
     Number mean = weighted / weights;
-    Number dimming = METER_DIM_SLOPE * shared_max(METER_LOG2_DIM - mean, 0.0);
+    Number below = shared_max(METER_LOG2_DIM - mean, 0.0);
+    Number dimming = METER_DIM_MOST * (1.0 - exp(-below * METER_DIM_SLOPE / METER_DIM_MOST));
     return shared_clamp(mean - TONE_LOG2_MEAN_PER_EV0 + dimming, METER_EV_MIN, METER_EV_MAX);
 }
 
