@@ -37,7 +37,7 @@ TRL_API trl_reference_desc trl_reference_desc_default(void);
 /// trl_renderer_draw shows them; bodies of the view hide the star where they stand before it, and
 /// are black. Ground is as high and as coloured as the scene's rasters say, casts shadows, and has
 /// its lights; made-up detail is left out, and water reflects as land does. There are no stars but
-/// the planet's own. Colour is integrated over the whole visible
+/// the planet's own, no moonlight and no airglow. Colour is integrated over the whole visible
 /// spectrum. Blocks for long, uses every core, tells the context's progress function how far it is.
 /// @param view            as for trl_renderer_draw
 /// @param width           with height within TRL_RENDERER_MAX_SIDE and TRL_RENDERER_MAX_PIXELS
