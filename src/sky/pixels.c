@@ -168,7 +168,8 @@ trl_result sky_pixels_draw(const struct sky_pixels *pixels, struct gpu_program *
                                       .blend = view->is_added ? GPU_BLEND_ADD : GPU_BLEND_NONE}};
     if (kind == SKY_KIND_STAR) {
         const struct camera *camera = view->camera;
-        pass.scissor = sky_find_disc(camera, view->target, camera->sun_direction, pixels->shown_rad);
+        pass.scissor =
+            sky_find_disc(camera, view->target, camera->sun_direction, pixels->shown_rad);
         if (pass.scissor.width == 0) {
             return TRL_OK;
         }

@@ -61,9 +61,10 @@ static void the_umbra_is_as_wide_as_its_cone(void **state)
     assert_true(eclipse_shadow(1.0001 * penumbra_m, along_m, 1737400, STAR_RAD) == 1);
 }
 
+// A black moon: nothing of it is seen but its shadow.
 static const char WITH_MOON[] =
     ", \"bodies\": [{\"name\": \"Moon\", \"radius_m\": 1737400, \"distance_m\": 363300000,"
-    " \"geometric_albedo\": 0.12}], \"views\": {\"view\": {\"camera\": {\"latitude_deg\": 0,"
+    " \"geometric_albedo\": 0}], \"views\": {\"view\": {\"camera\": {\"latitude_deg\": 0,"
     " \"longitude_deg\": 0, \"altitude_m\": %s, \"pitch_deg\": %s, \"vertical_fov_deg\": 60},"
     " \"sun\": {\"elevation_deg\": 50, \"azimuth_deg\": 90}, \"bodies\": {%s}}}}";
 

@@ -34,9 +34,9 @@ void main()
                         sky_map_depth_outside(u_map.x, 1000.0, u_map.y), suns.middle, suns.reach);
     vec4 eclipses = vec4(eclipse_visible(u_angle.x, u_angle.y), eclipse_corona(u_angle.x),
                          eclipse_shadow(u_shell.x, u_shell.y, 1737400.0, 0.0046529), 0.0);
-    o_color = u_wants_eclipse > 0.5  ? eclipses
+    o_color = u_wants_eclipse > 0.5   ? eclipses
               : u_wants_outside > 0.5 ? outside
-              : u_wants_shadow > 0.5 ? shadows
-              : u_wants_map > 0.5    ? maps
-                                     : (u_wants_profile > 0.5 ? profiles : phases);
+              : u_wants_shadow > 0.5  ? shadows
+              : u_wants_map > 0.5     ? maps
+                                      : (u_wants_profile > 0.5 ? profiles : phases);
 }
