@@ -13,7 +13,7 @@ VIEWS ?= orbit himalaya-morning rockies-sunset
 # Mesa compiles shaders at the first draw, which takes longer than drawing; what it made is kept.
 export MESA_SHADER_CACHE_DIR ?= $(or $(XDG_CACHE_HOME),$(HOME)/.cache)/terrella/shaders
 
-.PHONY: help setup build data demo view test bench validate clean
+.PHONY: help setup build data demo view test bench validate gallery clean
 
 help: ## lists these tasks
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -50,6 +50,12 @@ bench: build ## measures speed and memory, prints tables; BENCH=papers beside pu
 
 validate: build ## compares the models of the sky with the path tracer: report.html, nine minutes
 	@$(TERRELLA) validate --html report.html $(VALIDATE)
+
+# The part of tools/packages.txt.
+gallery: PARTS := gallery
+gallery: build ## makes the pictures of docs/gallery again; GALLERY="mars venus" for some
+	@tools/fetch-data.sh $(BUILD)/tools/prepare-data $(BODIES)
+	@tools/gallery.sh $(TERRELLA) $(GALLERY)
 
 clean: ## removes what was built, not the data
 	rm -rf build demo
