@@ -10,6 +10,7 @@
 #include "frame/edges.glsl"
 
 uniform sampler2D u_radiance;
+uniform float u_strength; // of the blending, in [0, 1]
 
 layout(location = 0) out vec4 out_radiance;
 
@@ -81,7 +82,7 @@ void main()
     for (int i = 0; i < 4; i++) {
         int sense = 1 - 2 * (i & 1);
         ivec2 side = i < 2 ? ivec2(0, sense) : ivec2(sense, 0);
-        float share = covered(pixel, side);
+        float share = u_strength * covered(pixel, side);
         sum += share * texelFetch(u_radiance, inside(pixel + side), 0);
         others += share;
     }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "frame/edges.h"
 
+#include <math.h>
+
 static trl_result make_program(struct gpu *gpu, const char *vertex, const char *fragment,
                                bool has_surface, struct gpu_program *out)
 {
@@ -83,6 +85,17 @@ static void set_ground(const struct edges_source *source, struct gpu_program *pr
     gpu_program_set_float(program, "u_depth", 0.5f);
 }
 
+// From all where a pixel at the horizon is no wider than the glow, to nothing at twice that.
+static double find_strength(const struct edges_source *source)
+{
+    const struct camera *camera = source->view->camera;
+    const double r = vec3_length(camera->position_m);
+    const double ground = source->ground_radius_m;
+    const double distance_m = sqrt(fmax(0, (r - ground) * (r + ground)));
+    const double pixel_m = distance_m * 2 * camera->tan_half_fov_y / source->view->target->height;
+    return source->glow_m > 0 ? fmax(0, fmin(1, 2 - pixel_m / source->glow_m)) : 1;
+}
+
 static trl_result draw(const struct edges *edges, const struct gpu_pass *pass,
                        struct gpu_program *program)
 {
@@ -104,6 +117,7 @@ trl_result edges_draw(struct edges *edges, const struct edges_source *source)
     if (result == TRL_OK) {
         set_ground(source, blend);
         gpu_program_set_texture(blend, "u_radiance", source->radiance);
+        gpu_program_set_float(blend, "u_strength", (float)find_strength(source));
         result = draw(edges, &apart, blend);
     }
     if (result == TRL_OK) {

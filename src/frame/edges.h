@@ -4,7 +4,9 @@
 #define FRAME_EDGES_H
 // Smooth silhouettes: the horizon, and ridges before what is far behind them. A pixel is drawn
 // through its middle; here those at an edge become the mean of both sides, by how much of each they
-// show. Works on radiance, so a pixel is what a camera's would be.
+// show. Works on radiance, so a pixel is what a camera's would be. From so far away that the air
+// over the horizon shines within less than a pixel, the next pixel knows nothing of it, and the
+// horizon is left as it is.
 //
 // Pixels at edges are marked in the depth of the radiance's target (nobody needs the kinds of
 // pixels any more), blended into a texture apart and copied back: everything else is left alone.
@@ -31,6 +33,7 @@ struct edges_source {
     const struct sky_view *view;
     const struct gpu_texture *radiance; // of the view's target
     double ground_radius_m, top_radius_m;
+    double glow_m; // height of the air that shines above the horizon; 0: none
 };
 
 // When everything is in the view's target.

@@ -9,6 +9,9 @@
 #include <math.h>
 #include <unistd.h>
 
+// Seen along the horizon air is bright up to about three times the mean height of what scatters.
+static const double GLOW_HEIGHTS = 3;
+
 static trl_result open_gpu(const struct frame_desc *desc, struct gpu **gpu)
 {
     return desc->gl == TRL_GL_CURRENT ? gpu_create_current(desc->ctx, gpu)
@@ -287,7 +290,9 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
         const struct edges_source source = {.view = &view,
                                             .radiance = &frame->radiance,
                                             .ground_radius_m = frame->medium.ground_radius_m,
-                                            .top_radius_m = frame->medium.top_radius_m};
+                                            .top_radius_m = frame->medium.top_radius_m,
+                                            .glow_m = GLOW_HEIGHTS *
+                                                      medium_scattering_height(&frame->medium)};
         frame_clock_part(&frame->clock, "edges");
         result = edges_draw(&frame->edges, &source);
     }

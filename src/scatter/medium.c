@@ -320,3 +320,22 @@ void medium_finish(const trl_context *ctx, struct medium *medium)
     }
     *medium = (struct medium){0};
 }
+
+double medium_scattering_height(const struct medium *medium)
+{
+    enum { STEPS = 1000 };
+    const double height_m = medium->top_radius_m - medium->ground_radius_m;
+    double column = 0;
+    double moment = 0;
+    for (size_t i = 0; i < medium->constituent_count; i++) {
+        const struct constituent *c = &medium->constituents[i];
+        const double scattering = spectrum_at(&c->scattering_per_m, 550);
+        for (int k = 0; k < STEPS; k++) {
+            const double altitude_m = height_m * (k + 0.5) / STEPS;
+            const double here = scattering * profile_density(&c->profile, altitude_m);
+            column += here;
+            moment += here * altitude_m;
+        }
+    }
+    return column > 0 ? moment / column : 0;
+}
