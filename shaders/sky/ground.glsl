@@ -13,6 +13,7 @@ uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, o
 uniform sampler2D u_albedo;   // square root of linear sRGB
 uniform sampler2D u_normal;   // xyz unit; w how much of the star terrain leaves
 uniform sampler2D u_lights;   // square root of linear sRGB
+uniform sampler2D u_region;   // the same: albedo around
 #endif
 
 struct Ground {
@@ -22,6 +23,7 @@ struct Ground {
     float star_visible; // share of the star's disc that terrain leaves
 #ifdef SURFACE
     vec3 albedo; // linear sRGB
+    vec3 region; // the same, mean around
     vec3 lights; // linear sRGB, of white
 #endif
 };
@@ -41,6 +43,8 @@ Ground find_ground(out Ray ray)
     ground.normal = normal.xyz;
     ground.star_visible = normal.w;
     ground.albedo = albedo.rgb * albedo.rgb;
+    vec4 region = texelFetch(u_region, ivec2(gl_FragCoord.xy), 0);
+    ground.region = region.rgb * region.rgb;
     ground.lights = lights.rgb * lights.rgb;
     return ground;
 }

@@ -16,6 +16,7 @@ uniform highp sampler2D u_position;
 uniform mat3 u_local_from_planet; // at the camera's ground point, which is the anchor
 uniform vec4 u_view;              // the camera's distance from the centre, m; a pixel's angle
 uniform vec3 u_default_albedo;
+uniform float u_region; // log2 of its width, m
 
 #if COLOUR_COUNT > 0
 uniform vec4 u_colour_place[4];
@@ -66,6 +67,7 @@ uniform sampler2D u_lights3;
 layout(location = 0) out vec4 o_albedo_water;
 layout(location = 1) out vec4 o_normal_sun;
 layout(location = 2) out vec4 o_lights;
+layout(location = 3) out vec4 o_region;
 
 vec4 layer_picture(sampler2D picture, vec4 place, vec4 shape, vec4 texel, vec3 geo_footprint)
 {
@@ -226,4 +228,5 @@ void main()
     // A row times a matrix: the transpose turns local axes back into the planet's.
     o_normal_sun = is_ground * vec4(normal * u_local_from_planet, sun);
     o_lights = is_ground * vec4(terrain_lights(geo_footprint), 1.0);
+    o_region = is_ground * vec4(terrain_albedo(vec3(geo, max(log2_footprint, u_region))), 1.0);
 }

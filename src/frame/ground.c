@@ -77,7 +77,9 @@ double ground_find_lights_cd_m2(const struct trl_scene *scene)
 
 trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene, struct ground *out)
 {
-    *out = (struct ground){.gpu = gpu, .lights_cd_m2 = ground_find_lights_cd_m2(scene)};
+    *out = (struct ground){.gpu = gpu,
+                           .lights_cd_m2 = ground_find_lights_cd_m2(scene),
+                           .region_m = 2 * medium_scattering_height(&scene->medium)};
     trl_result result = load_surface(gpu, scene, &out->surface);
     out->is_bare = result == TRL_OK && !surface_has_layers(&out->surface);
     if (result == TRL_OK && !out->is_bare) {
@@ -98,6 +100,7 @@ static void finish_buffers(struct ground *ground)
     gpu_texture_finish(&ground->albedo);
     gpu_texture_finish(&ground->normal);
     gpu_texture_finish(&ground->lights);
+    gpu_texture_finish(&ground->region);
 }
 
 void ground_finish(struct ground *ground)
@@ -122,7 +125,8 @@ static trl_result make_buffers(struct ground *ground, uint32_t width, uint32_t h
                                      {&ground->depth, GPU_FORMAT_DEPTH32F, "depth"},
                                      {&ground->albedo, GPU_FORMAT_RGBA8, "albedo"},
                                      {&ground->normal, GPU_FORMAT_RGBA16F, "normal"},
-                                     {&ground->lights, GPU_FORMAT_RGBA8, "lights"}};
+                                     {&ground->lights, GPU_FORMAT_RGBA8, "lights"},
+                                     {&ground->region, GPU_FORMAT_RGBA8, "region"}};
     trl_result result = TRL_OK;
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers && result == TRL_OK; i++) {
         struct gpu_texture_desc desc = gpu_texture_desc_default();
@@ -143,10 +147,11 @@ static trl_result make_targets(struct ground *ground)
                                          .colors[0].texture = &ground->position,
                                          .depth.texture = &ground->depth};
     const struct gpu_target_desc surface = {.label = "surface",
-                                            .color_count = 3,
+                                            .color_count = 4,
                                             .colors = {{.texture = &ground->albedo},
                                                        {.texture = &ground->normal},
-                                                       {.texture = &ground->lights}}};
+                                                       {.texture = &ground->lights},
+                                                       {.texture = &ground->region}}};
     const trl_result result = gpu_target_init(ground->gpu, &mesh, &ground->mesh_target);
     return result == TRL_OK ? gpu_target_init(ground->gpu, &surface, &ground->surface_target)
                             : result;
@@ -185,7 +190,8 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
     }
     if (result == TRL_OK) {
         frame_clock_part(clock, "surface");
-        const struct terrain_compose_inputs inputs = {camera, &ground->position, &ground->shadow};
+        const struct terrain_compose_inputs inputs = {camera, &ground->position, &ground->shadow,
+                                                      ground->region_m};
         result = terrain_compose_draw(&ground->compose, &inputs, &ground->surface_target);
     }
     return result;
@@ -200,6 +206,7 @@ struct sky_surface ground_surface(const struct ground *ground)
                                 .albedo = &ground->albedo,
                                 .normal = &ground->normal,
                                 .lights = &ground->lights,
+                                .region = &ground->region,
                                 .lights_cd_m2 = ground->lights_cd_m2};
 }
 

@@ -10,6 +10,7 @@
 //     no ground depth     DEPTH32F  reversed albedo    RGBA8     square root of the linear albedo;
 //     a: water normal    RGBA16F   xyz planet axes; w: how much of the sun is not hidden by terrain
 //     lights    RGBA8     square root of artificial light at night
+//     region    RGBA8     square root of the albedo, averaged as the light of the air does
 
 #include "base/camera.h"
 #include "frame/clock.h"
@@ -23,11 +24,12 @@ struct ground {
     struct gpu *gpu;
     bool is_bare;
     double lights_cd_m2; // luminance of white in `lights`
+    double region_m;     // width of the averages in `region`
     struct surface surface;
     struct mesher *mesher; // NULL when bare, as the two passes below
     struct terrain_shadow shadow;
     struct terrain_compose compose;
-    struct gpu_texture position, depth, albedo, normal, lights;
+    struct gpu_texture position, depth, albedo, normal, lights, region;
     struct gpu_target mesh_target, surface_target;
 };
 

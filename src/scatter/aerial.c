@@ -23,6 +23,70 @@ struct aerial_worker {
     lanes cell[AERIAL_SOURCES][AERIAL_LONG];           // of one cell, as aerial.source
 };
 
+// Two streams over a ground of radiance 1 (L+ up, L- down, no absorption): their flux is the same
+// at all altitudes, and each changes with the depth t of what is scattered backward,
+// d L / dt = -3/4 flux. With L- = 0 at the top,
+//
+//     L+ - L- = 1 / (1 + 3/4 t_all),    (L+ + L-) / 2 = (1/2 + 3/4 t_above) / (1 + 3/4 t_all)
+//
+// and the air sends back 3/4 t_all / (1 + 3/4 t_all).
+struct streams {
+    lanes mean[AERIAL_LEVELS]; // (L+ + L-) / 2, at levels uniform in the shell coordinate
+    lanes flux;                // L+ - L-
+};
+
+// Depth of what is scattered backward between two altitudes.
+static lanes find_backward_depth(const struct optics *o, double low_m, double high_m)
+{
+    enum { STEPS = 8 };
+    const double step_m = (high_m - low_m) / STEPS;
+    lanes depth = {0};
+    for (int k = 0; k < STEPS; k++) {
+        double density[MEDIUM_MAX_CONSTITUENTS];
+        for (int i = 0; i < o->constituent_count; i++) {
+            density[i] =
+                profile_density(&o->medium->constituents[i].profile, low_m + (k + 0.5) * step_m);
+        }
+        depth += (optics_source(o, density, 0) - optics_source(o, density, 1)) * (float)step_m;
+    }
+    return depth;
+}
+
+static void find_streams(struct aerial *a, struct streams *out)
+{
+    const struct optics *o = a->atmosphere->optics;
+    lanes above[AERIAL_LEVELS];
+    above[AERIAL_LEVELS - 1] = lanes_set(0);
+    for (int k = AERIAL_LEVELS - 2; k >= 0; k--) {
+        const double low_m = optics_altitude(o, (double)k / (AERIAL_LEVELS - 1));
+        const double high_m = optics_altitude(o, (double)(k + 1) / (AERIAL_LEVELS - 1));
+        above[k] = above[k + 1] + find_backward_depth(o, low_m, high_m);
+    }
+    out->flux = lanes_set(1) / (lanes_set(1) + above[0] * 0.75f);
+    for (int k = 0; k < AERIAL_LEVELS; k++) {
+        out->mean[k] = (lanes_set(0.5f) + above[k] * 0.75f) * out->flux;
+    }
+}
+
+static lanes streams_mean(const struct streams *s, double shell)
+{
+    const double position = shell * (AERIAL_LEVELS - 1);
+    const int level = position < AERIAL_LEVELS - 2 ? (int)fmax(position, 0) : AERIAL_LEVELS - 2;
+    return s->mean[level] + (s->mean[level + 1] - s->mean[level]) * (float)(position - level);
+}
+
+// 1 - 1 / (1 + 3/4 t_above)
+void aerial_air_albedo(const struct aerial *aerial, double altitude_m, float bands[BAND_COUNT])
+{
+    const struct streams *s = aerial->streams;
+    const double shell = optics_shell(aerial->atmosphere->optics, altitude_m);
+    const lanes up = streams_mean(s, shell) + s->flux * 0.5f;
+    for (int b = 0; b < BAND_COUNT; b++) {
+        const int lane = aerial->atmosphere->bands.lane[b];
+        bands[b] = 1 - s->flux[lane] / up[lane];
+    }
+}
+
 static size_t map_floats(void)
 {
     return (size_t)AERIAL_ROWS * AERIAL_LONG * AERIAL_SHORT * TEXEL_FLOATS;
@@ -34,7 +98,9 @@ trl_result aerial_init(const struct atmosphere *atmosphere, struct aerial *out)
     *out = (struct aerial){.atmosphere = atmosphere, .worker_count = lanes_max_threads()};
     out->workers = mem_alloc(ctx, (size_t)out->worker_count, sizeof *out->workers);
     out->extinction = mem_alloc(ctx, (size_t)AERIAL_ROWS * AERIAL_LONG * BAND_COUNT, sizeof(float));
-    bool has_memory = out->workers && out->extinction;
+    out->bounce = mem_alloc(ctx, (size_t)AERIAL_ROWS * AERIAL_LONG * BAND_COUNT, sizeof(float));
+    out->streams = mem_alloc(ctx, 1, sizeof *out->streams);
+    bool has_memory = out->workers && out->extinction && out->bounce && out->streams;
     for (int c = 0; c <= atmosphere->peaked.count && has_memory; c++) {
         out->scattered[c] = mem_alloc(ctx, map_floats(), sizeof(float));
         has_memory = out->scattered[c] != NULL;
@@ -44,7 +110,9 @@ trl_result aerial_init(const struct atmosphere *atmosphere, struct aerial *out)
         result = transport_scratch_create(ctx, AERIAL_LONG, atmosphere->solution.moments.suns,
                                           &out->workers[n].scratch);
     }
-    if (result != TRL_OK) {
+    if (result == TRL_OK) {
+        find_streams(out, out->streams);
+    } else {
         aerial_finish(out);
     }
     return result;
@@ -61,6 +129,8 @@ void aerial_finish(struct aerial *aerial)
     }
     mem_free(ctx, aerial->workers);
     mem_free(ctx, aerial->extinction);
+    mem_free(ctx, aerial->bounce);
+    mem_free(ctx, aerial->streams);
     for (int c = 0; c <= TABLE_MAX_PEAKED; c++) {
         mem_free(ctx, aerial->scattered[c]);
     }
@@ -205,6 +275,27 @@ static void add_cell(const struct aerial *a, struct aerial_worker *w,
     }
 }
 
+// What a node sends to the eye of the streams. Toward a zenith angle, a phase function of asymmetry
+// g takes nearly 0.6 g more of the upper than of the lower stream (Henyey-Greenstein's share
+// within a right angle is 0.92 for g = 0.7).
+static lanes node_bounce(const struct aerial *a, const struct ray_node *node)
+{
+    const struct optics *o = a->atmosphere->optics;
+    const struct streams *s = a->streams;
+    const lanes mean = streams_mean(s, node->shell);
+    const lanes source = optics_source(o, node->density, 0) * mean -
+                         optics_source(o, node->density, 1) * s->flux * (float)(0.6 * node->mu);
+    return optics_attenuation(o, node->column_m) * source * (float)node->weight_m;
+}
+
+static void store_bounce(struct aerial *a, const lanes *sum, int row, int depth, double length_m)
+{
+    for (int b = 0; b < BAND_COUNT; b++) {
+        a->bounce[((size_t)row * AERIAL_LONG + (size_t)depth) * BAND_COUNT + b] =
+            (float)((double)(*sum)[a->atmosphere->bands.lane[b]] / length_m);
+    }
+}
+
 static void store_extinction(struct aerial *a, const double *column_m, int row, int depth,
                              double length_m)
 {
@@ -250,11 +341,13 @@ static void march_row(struct aerial *a, struct aerial_worker *w, int row, double
         peaked_channels(&atm->peaked, optics, &family, phase);
     memset(w->radiance, 0, sizeof w->radiance);
     double column_m[MEDIUM_MAX_CONSTITUENTS] = {0};
+    lanes bounce = {0};
     for (int d = 0; d < a->depths; d++) {
         w->ray.first_node = d * NODES_PER_CELL;
         w->ray.node_count = (d + 1) * NODES_PER_CELL;
         add_cell(a, w, &family, &channels);
         for (int k = w->ray.first_node; k < w->ray.node_count; k++) {
+            bounce += node_bounce(a, &w->ray.node[k]);
             for (int i = 0; i < optics->constituent_count; i++) {
                 column_m[i] += w->ray.node[k].density[i] * w->ray.node[k].weight_m;
             }
@@ -262,6 +355,7 @@ static void march_row(struct aerial *a, struct aerial_worker *w, int row, double
         const double length_m = fmax(bound_m[d + 1] - begin_m, 1e-9);
         store_scattered(a, w, row, d, length_m);
         store_extinction(a, column_m, row, d, length_m);
+        store_bounce(a, &bounce, row, d, length_m);
         if (has_source(a)) {
             store_source(a, w, row, d, fmax(bound_m[d + 1] - bound_m[d], 1e-9));
         }

@@ -25,6 +25,7 @@ enum {
     AERIAL_GROUND_ROWS = 64,
     AERIAL_AIR_ROWS = 32,
     AERIAL_ROWS = AERIAL_GROUND_ROWS + AERIAL_AIR_ROWS,
+    AERIAL_LEVELS = 65,
     AERIAL_MULTIPLE = 1 + TABLE_MAX_PEAKED, // in `source`: all orders but the first
     AERIAL_SOURCES
 };
@@ -39,10 +40,14 @@ struct aerial {
     float *scattered[1 + TABLE_MAX_PEAKED]; // [row][azimuth][depth][TEXEL_FLOATS]; from outside
                                             // [row][depth][azimuth][TEXEL_FLOATS]
     float *extinction;                      // [row][AERIAL_LONG][BAND_COUNT], the first `depths`
+    // What level ground of radiance 1 sends to the eye by way of the air before it, per metre:
+    // layout and means as `extinction`. By two streams; see docs/physics.md, section 12.
+    float *bounce;
     // Layout of `scattered`, depth d standing for the cell that ends at depth d: the first order in
     // its channels, and AERIAL_MULTIPLE, divided by the Rayleigh phase function. NULL: not asked
     // for
     float *source[AERIAL_SOURCES];
+    struct streams *streams;
     struct aerial_worker *workers;
     int worker_count;
 };
@@ -56,5 +61,8 @@ TRL_MUST_USE trl_result aerial_add_source(struct aerial *aerial);
 // there.
 #define AERIAL_MIN_ALTITUDE_M 0.5
 void aerial_update(struct aerial *aerial, double radius_m, double sun_mu);
+
+// What the air above an altitude sends back of diffuse light from below.
+void aerial_air_albedo(const struct aerial *aerial, double altitude_m, float bands[BAND_COUNT]);
 
 #endif // SCATTER_AERIAL_H

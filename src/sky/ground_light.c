@@ -40,7 +40,8 @@ void ground_light_of_star(const struct atmosphere *a, double highest_m, float *t
 // 2 pi / 3, pi / 4, 0, -pi / 24 (l = 0, 1, 2, 3, 4), and only m = 0 counts for level ground. Cut
 // off at l = 4 it is rough where sky and ground differ much, so its change with altitude scales the
 // exact irradiance at the ground.
-static lanes expand_irradiance(const struct moments *m, int level, int sun)
+// `side` is 1 for light from above, -1 from below.
+static lanes expand_irradiance(const struct moments *m, int level, int sun, int side)
 {
     static const double cosine_moment[] = {M_PI, 2 * M_PI / 3, M_PI / 4, 0, -M_PI / 24};
     const int harmonics = harmonic_count(m->lmax);
@@ -50,12 +51,13 @@ static lanes expand_irradiance(const struct moments *m, int level, int sun)
     lanes sum = {0};
     for (int l = 0; l <= m->lmax && l <= 4; l++) {
         const int h = harmonic_index(l, 0);
-        sum += a[h] * (float)(cosine_moment[l] * harmonic[h]);
+        sum += a[h] * (float)((l % 2 ? side : 1) * cosine_moment[l] * harmonic[h]);
     }
     return lanes_max(sum, lanes_set(0));
 }
 
-void ground_light_of_sky(const struct atmosphere *a, double highest_m, float *texels)
+// The change with altitude of one side's expansion, times what it is at the ground.
+static void store_side(const struct atmosphere *a, int side, double highest_m, float *texels)
 {
     const struct moments *m = &a->solution.moments;
     for (int row = 0; row < GROUND_LIGHT_ALTITUDES; row++) {
@@ -64,11 +66,17 @@ void ground_light_of_sky(const struct atmosphere *a, double highest_m, float *te
         const int level = position < m->levels - 2 ? (int)position : m->levels - 2;
         const float part = (float)(position - level);
         for (int i = 0; i < m->suns; i++) {
-            const lanes below = expand_irradiance(m, level, i);
-            const lanes above = expand_irradiance(m, level + 1, i);
+            const lanes below = expand_irradiance(m, level, i, side);
+            const lanes above = expand_irradiance(m, level + 1, i, side);
             const lanes here = below + (above - below) * part;
-            const lanes base = lanes_max(expand_irradiance(m, 0, i), lanes_set(1e-30f));
-            const lanes light = m->irradiance[i] * here / base;
+            const lanes base = lanes_max(expand_irradiance(m, 0, i, side), lanes_set(1e-30f));
+            lanes ground = m->irradiance[i];
+            if (side < 0) {
+                lanes star;
+                sunlight_ground_at(&a->solution.sun, moments_sun_mu(m, i), &star);
+                ground = (ground + star) * a->optics->ground_albedo;
+            }
+            const lanes light = ground * here / base;
             float *texel = texels + ((size_t)row * (size_t)m->suns + i) * BAND_COUNT;
             store(&a->bands, &light, texel);
             for (int b = 0; b < BAND_COUNT; b++) {
@@ -76,4 +84,14 @@ void ground_light_of_sky(const struct atmosphere *a, double highest_m, float *te
             }
         }
     }
+}
+
+void ground_light_of_sky(const struct atmosphere *a, double highest_m, float *texels)
+{
+    store_side(a, 1, highest_m, texels);
+}
+
+void ground_light_from_below(const struct atmosphere *a, double highest_m, float *texels)
+{
+    store_side(a, -1, highest_m, texels);
 }

@@ -16,4 +16,7 @@ void ground_light_of_star(const struct atmosphere *atmosphere, double highest_m,
 // [altitude][suns][BAND_COUNT].
 void ground_light_of_sky(const struct atmosphere *atmosphere, double highest_m, float *texels);
 
+// The same of the light that rises there in the solved atmosphere, whose ground is the sphere.
+void ground_light_from_below(const struct atmosphere *atmosphere, double highest_m, float *texels);
+
 #endif // SKY_GROUND_LIGHT_H

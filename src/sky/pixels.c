@@ -110,6 +110,7 @@ static void set_surface(struct gpu_program *program, const struct sky_surface *s
     gpu_program_set_texture(program, "u_albedo", surface->albedo);
     gpu_program_set_texture(program, "u_normal", surface->normal);
     gpu_program_set_texture(program, "u_lights", surface->lights);
+    gpu_program_set_texture(program, "u_region", surface->region);
 }
 
 // From far off the axis a disc looks longer: outward it reaches from the tangent of the angle to

@@ -37,6 +37,9 @@ static trl_result make_maps(struct spectral_maps *maps)
     const struct table *table = &maps->atmosphere->table;
     trl_result result =
         make_texture(maps->gpu, "extinction", AERIAL_LONG, AERIAL_ROWS, 1, &maps->extinction);
+    if (result == TRL_OK) {
+        result = make_texture(maps->gpu, "bounce", AERIAL_LONG, AERIAL_ROWS, 1, &maps->bounce);
+    }
     for (int c = 0; c < table->channels && result == TRL_OK; c++) {
         result =
             make_texture(maps->gpu, "sky slice", (uint32_t)table->size.azimuths,
@@ -54,6 +57,14 @@ static trl_result make_maps(struct spectral_maps *maps)
         result =
             make_texture(maps->gpu, "skylight", (uint32_t)maps->atmosphere->solution.moments.suns,
                          GROUND_LIGHT_ALTITUDES, 1, &maps->skylight);
+    }
+    if (result == TRL_OK) {
+        result = make_texture(maps->gpu, "rising light", maps->skylight.width,
+                              GROUND_LIGHT_ALTITUDES, 1, &maps->rising);
+    }
+    if (result == TRL_OK) {
+        result = make_texture(maps->gpu, "albedo of the air", 1, GROUND_LIGHT_ALTITUDES, 1,
+                              &maps->air_albedo);
     }
     if (result == TRL_OK) {
         result = make_texture(maps->gpu, "phase", PHASE_SAMPLES, 1, 1, &maps->phase);
@@ -127,8 +138,11 @@ void spectral_maps_finish(struct spectral_maps *maps)
         gpu_texture_finish(&maps->source[c]);
     }
     gpu_texture_finish(&maps->extinction);
+    gpu_texture_finish(&maps->bounce);
     gpu_texture_finish(&maps->sunlight);
     gpu_texture_finish(&maps->skylight);
+    gpu_texture_finish(&maps->rising);
+    gpu_texture_finish(&maps->air_albedo);
     gpu_texture_finish(&maps->phase);
     mem_free(maps->atmosphere->ctx, maps->texels);
     aerial_finish(&maps->aerial);
@@ -203,6 +217,9 @@ static trl_result update_aerial(struct spectral_maps *maps, double radius_m, dou
     }
     aerial_update(&maps->aerial, radius_m, sun_mu);
     trl_result result = upload(&maps->extinction, maps->aerial.extinction);
+    if (result == TRL_OK) {
+        result = upload(&maps->bounce, maps->aerial.bounce);
+    }
     for (int c = 0; c < maps->atmosphere->table.channels && result == TRL_OK; c++) {
         const struct gpu_region region = gpu_texture_region(&maps->scattered[c], 0);
         result = upload_log(&maps->scattered[c], &region, maps->aerial.scattered[c]);
@@ -238,6 +255,17 @@ static trl_result update_ground_light(struct spectral_maps *maps, double highest
     if (result == TRL_OK) {
         ground_light_of_sky(maps->atmosphere, wanted_m, texels);
         result = upload(&maps->skylight, texels);
+    }
+    if (result == TRL_OK) {
+        ground_light_from_below(maps->atmosphere, wanted_m, texels);
+        result = upload(&maps->rising, texels);
+    }
+    if (result == TRL_OK) {
+        for (int row = 0; row < GROUND_LIGHT_ALTITUDES; row++) {
+            aerial_air_albedo(&maps->aerial, wanted_m * row / (GROUND_LIGHT_ALTITUDES - 1),
+                              texels + (size_t)row * BAND_COUNT);
+        }
+        result = upload(&maps->air_albedo, texels);
     }
     mem_free(ctx, texels);
     maps->highest_m = result == TRL_OK ? wanted_m : -1;
@@ -276,6 +304,9 @@ void spectral_maps_bind(const struct spectral_maps *maps, struct gpu_program *pr
         gpu_program_set_texture(program, SCATTERED_NAMES[c], &maps->scattered[c]);
     }
     gpu_program_set_texture(program, "u_extinction", &maps->extinction);
+    gpu_program_set_texture(program, "u_bounce", &maps->bounce);
+    gpu_program_set_texture(program, "u_air_albedo", &maps->air_albedo);
+    gpu_program_set_texture(program, "u_rising", &maps->rising);
     gpu_program_set_texture(program, "u_sunlight", &maps->sunlight);
     gpu_program_set_texture(program, "u_skylight", &maps->skylight);
     gpu_program_set_texture(program, "u_phase", &maps->phase);

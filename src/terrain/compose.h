@@ -25,6 +25,7 @@ struct terrain_compose_inputs {
     const struct camera *camera;
     const struct gpu_texture *position;  // drawn by a mesher for that camera
     const struct terrain_shadow *shadow; // updated for it
+    double region_m;                     // over which color 3 is averaged
 };
 
 // Draws all of `target`, of the position's size:
@@ -32,6 +33,7 @@ struct terrain_compose_inputs {
 // color 1, RGBA16F or RGBA32F: unit normal in the planet frame, and the part of the sun that the
 // terrain leaves visible (not the planet's curve, not the air);
 // color 2, RGBA8: square root of the night lights, linear, 1 where the picture is white; alpha 1.
+// color 3, RGBA8, where there is one: square root of the albedo of the region around; alpha 1.
 // All 0 where there is no ground.
 TRL_MUST_USE trl_result terrain_compose_draw(struct terrain_compose *compose,
                                              const struct terrain_compose_inputs *inputs,

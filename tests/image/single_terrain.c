@@ -201,7 +201,10 @@ static void check(struct fixture *f, const struct camera *camera, const char *na
     memcpy(place, f->texels, sizeof place);
     const struct sky_view view = {.camera = camera,
                                   .highest_m = 9000,
-                                  .surface = {&f->position, &f->albedo, &f->normal, &f->lights, 0},
+                                  .surface = {.position = &f->position,
+                                              .albedo = &f->albedo,
+                                              .normal = &f->normal,
+                                              .lights = &f->lights},
                                   .target = &f->target};
     assert_int_equal(sky_prepare(&f->sky, &view), TRL_OK);
     assert_int_equal(sky_draw(&f->sky, &view), TRL_OK);

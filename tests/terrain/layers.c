@@ -253,7 +253,7 @@ static struct composed compose_middle(struct fixture *f, const struct surface *s
     assert_int_equal(gpu_target_init(f->gpu, &target_desc, &target), TRL_OK);
     fixture_picture_draw(&picture, mesher, camera);
     assert_int_equal(terrain_shadow_update(&shadow, camera), TRL_OK);
-    const struct terrain_compose_inputs inputs = {camera, &picture.position, &shadow};
+    const struct terrain_compose_inputs inputs = {camera, &picture.position, &shadow, 0};
     assert_int_equal(terrain_compose_draw(&compose, &inputs, &target), TRL_OK);
     struct composed c;
     const struct gpu_region middle = {0, PICTURE_SIDE / 2, PICTURE_SIDE / 2, 0, 1, 1, 1};

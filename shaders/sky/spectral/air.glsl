@@ -189,6 +189,8 @@ float extinction_map(float depth)
 
 struct Air {
     vec3 scattered;     // XYZ that the air adds
+    vec2 at;            // place in the maps of bands
+    float way;          // m
     vec4 transmittance; // what it leaves of the light behind it, in the bands
 };
 
@@ -200,8 +202,9 @@ Air air_before(Ray ray, float distance_m)
     float way = clamp(distance_m, ray.begin_m, max(ray.end_m * 1.2, distance_m)) - ray.begin_m;
     Air air;
     air.scattered = join_scattered(at, ray.nu) * way;
-    air.transmittance =
-        exp(-textureLod(u_extinction, vec2(extinction_map(depth), at.z), 0.0) * way);
+    air.at = vec2(extinction_map(depth), at.z);
+    air.way = way;
+    air.transmittance = exp(-textureLod(u_extinction, air.at, 0.0) * way);
     return air;
 }
 

@@ -28,6 +28,9 @@ uniform vec4 u_ground_albedo; // in the bands, of the bare sphere and of the lan
 #ifdef SURFACE
 uniform vec4 u_bands_from_rgb[3]; // columns
 uniform vec4 u_bands_of_light[3]; // columns: bands that show lights of this colour
+uniform sampler2D u_bounce;       // as u_extinction: see scatter/aerial.h
+uniform sampler2D u_air_albedo;   // of the air above an altitude, from below
+uniform sampler2D u_rising;       // as u_skylight: light from below, over the mean ground
 #endif
 
 #ifdef MOON
@@ -36,17 +39,14 @@ uniform float u_shadowed; // 1: terrain's shadow is the body's; 0: there is none
 
 layout(location = 0) out vec4 out_radiance;
 
-// From colours to bands; the bare sphere's albedo is known in the bands.
-vec4 ground_albedo(Ground ground)
-{
 #ifdef SURFACE
-    return max(u_bands_from_rgb[0] * ground.albedo.r + u_bands_from_rgb[1] * ground.albedo.g +
-                   u_bands_from_rgb[2] * ground.albedo.b,
+vec4 bands_of(vec3 albedo)
+{
+    return max(u_bands_from_rgb[0] * albedo.r + u_bands_from_rgb[1] * albedo.g +
+                   u_bands_from_rgb[2] * albedo.b,
                vec4(0.0));
-#else
-    return u_ground_albedo;
-#endif
 }
+#endif
 
 vec4 ground_emitted(Ground ground)
 {
@@ -59,7 +59,13 @@ vec4 ground_emitted(Ground ground)
 #endif
 }
 
-vec4 light_ground(Ray ray, Ground ground)
+// In the bands: the ground, and what the air before it adds because the region sends another light
+// than what rises at its altitude over the sphere, for which the air's light is solved.
+struct Light {
+    vec4 ground, bounced;
+};
+
+Light light_ground(Ray ray, Ground ground, Air air)
 {
     vec3 up = normalize(u_eye_up * u_eye.x + ray.direction * ground.distance_m);
     float sun_mu = dot(up, u_sun);
@@ -72,19 +78,46 @@ vec4 light_ground(Ray ray, Ground ground)
     vec4 star = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
     float day = sun_coordinate(sun_mu);
     vec4 sky = exp(textureLod(u_skylight, vec2(centre(day, u_light_texel.y), altitude), 0.0));
+    float height = visible_height(sun_mu, u_disc.y);
+    vec4 level = star * height + sky;
+#ifdef SURFACE
+    vec4 rising = exp(textureLod(u_rising, vec2(centre(day, u_light_texel.y), altitude), 0.0));
+#endif
 #ifdef ECLIPSE
     vec3 place = ray.direction * ground.distance_m;
     float left = star_left(place);
     star *= left;
     sky *= ground_left(place, left);
+    vec4 lit = star * height + sky;
+#ifdef SURFACE
+    rising *= lit / max(level, vec4(1.0e-20));
+#endif
+    level = lit;
 #endif
     // A slope sees a part of the sky, and for the rest the ground around it.
     float open = 0.5 + 0.5 * dot(ground.normal, up);
-    float height = visible_height(sun_mu, u_disc.y);
     float incidence = max(dot(ground.normal, u_sun + up * (height - sun_mu)), 0.0);
-    vec4 around = u_ground_albedo * (star * height + sky);
+    Light light;
+#ifdef SURFACE
+    // Between ground and air light goes back and forth: a series of air_albedo albedo.
+    vec4 own = bands_of(ground.albedo);
+    vec4 region = bands_of(ground.region);
+    vec4 above = textureLod(u_air_albedo, vec2(0.5, altitude), 0.0);
+    vec4 whole = textureLod(u_air_albedo, vec2(0.5, 0.0), 0.0);
+    vec4 gain =
+        (1.0 - above * min(rising / max(level, vec4(1.0e-20)), vec4(1.0))) / (1.0 - above * region);
+    vec4 around = region * level * gain;
+    sky += level * (gain - 1.0);
+    light.bounced = (around - rising) * (1.0 / SHARED_PI) * air.way *
+                    textureLod(u_bounce, air.at, 0.0) * (1.0 - above) / (1.0 - whole);
+#else
+    vec4 own = u_ground_albedo;
+    vec4 around = own * level;
+    light.bounced = vec4(0.0);
+#endif
     vec4 irradiance = star * (incidence * ground.star_visible) + sky * open + around * (1.0 - open);
-    return ground_albedo(ground) * irradiance * (1.0 / SHARED_PI) + ground_emitted(ground);
+    light.ground = own * irradiance * (1.0 / SHARED_PI) + ground_emitted(ground);
+    return light;
 }
 
 void main()
@@ -98,5 +131,6 @@ void main()
 #ifdef MARCH
     air.scattered *= share_before(v_uv, ground.distance_m);
 #endif
-    out_radiance = join_radiance(light_ground(ray, ground) * air.transmittance, air.scattered);
+    Light light = light_ground(ray, ground, air);
+    out_radiance = join_radiance(light.ground * air.transmittance + light.bounced, air.scattered);
 }
