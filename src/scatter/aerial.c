@@ -8,7 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { NODES_PER_CELL = 2 };
+// Of a cell; in dense matter more, since light dies away within it.
+enum { LEAST_NODES = 2, MOST_NODES = RAY_RULE_NODES };
 
 // The first depth stands this close to the start, in units of the depth coordinate, instead of at
 // 0, where a mean over no distance has no meaning.
@@ -138,6 +139,12 @@ void aerial_finish(struct aerial *aerial)
         mem_free(ctx, aerial->source[c]);
     }
     *aerial = (struct aerial){0};
+}
+
+static int nodes_per_cell(const struct optics *optics)
+{
+    const double wanted = LEAST_NODES + 2 * log2(fmax(1, optics_largest_depth(optics)));
+    return (int)fmin(wanted, MOST_NODES);
 }
 
 static bool has_source(const struct aerial *a)
@@ -330,7 +337,8 @@ static void march_row(struct aerial *a, struct aerial_worker *w, int row, double
         bound_m[d + 1] = begin_m + (end_m - begin_m) * part;
     }
     const struct ray_desc desc = {.radius_m = a->eye_radius_m, .mu = mu};
-    ray_init_cells(&w->ray, optics, atm->solution.rules, &desc, bound_m, a->depths, NODES_PER_CELL);
+    const int nodes = nodes_per_cell(optics);
+    ray_init_cells(&w->ray, optics, atm->solution.rules, &desc, bound_m, a->depths, nodes);
     fill_family(a, w, mu, sun_mu, hits_ground ? end_m : 0);
     const struct transport_family family = {a->azimuths, w->sun_mu, w->nu};
     float *phase[MEDIUM_MAX_CONSTITUENTS];
@@ -343,8 +351,8 @@ static void march_row(struct aerial *a, struct aerial_worker *w, int row, double
     double column_m[MEDIUM_MAX_CONSTITUENTS] = {0};
     lanes bounce = {0};
     for (int d = 0; d < a->depths; d++) {
-        w->ray.first_node = d * NODES_PER_CELL;
-        w->ray.node_count = (d + 1) * NODES_PER_CELL;
+        w->ray.first_node = d * nodes;
+        w->ray.node_count = (d + 1) * nodes;
         add_cell(a, w, &family, &channels);
         for (int k = w->ray.first_node; k < w->ray.node_count; k++) {
             bounce += node_bounce(a, &w->ray.node[k]);

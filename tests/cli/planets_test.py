@@ -6,14 +6,14 @@ import json
 import math
 import unittest
 
-from process import IS_SLOW, SCENES, ProgramTest, require_gl
+from process import IS_SLOW, SCENES, ProgramTest, read_png, require_gl
 
 # Earth's rasters are not in the folder of a test.
 NEEDS_DATA = {"earth"}
 # What shows something else than a planet.
 NO_PLANETS = {"bare-sphere", "clear-sky", "eclipse"}
 # By the path tracer all are drawn, from solved air only these: dense air takes seconds a wavelength.
-DRAWN = ["mars", "moon", "super-earth"]
+DRAWN = ["mars", "moon"]
 NAMES = sorted(path.stem for path in SCENES.glob("*.json") if "schema" not in path.name)
 # Abscissae and weights of Gauss and Legendre's rule of four points, from 0 to 1.
 GAUSS = [(0.5 - side * x, w) for x, w in [(0.430568, 0.173927), (0.169991, 0.326073)] for side in (1, -1)]
@@ -33,11 +33,22 @@ class Scenes(ProgramTest):
                 self.expect_success("render", SCENES / f"{name}.json", "--reference", "--paths", "1", "--size", "8x5",
                                     "-o", "traced.png")
 
-    @unittest.skipIf(IS_SLOW, "solves three atmospheres")
+    @unittest.skipIf(IS_SLOW, "solves two atmospheres")
     def test_some_are_drawn(self):
         for name in DRAWN:
             self.expect_success("render", SCENES / f"{name}.json", "--spectrum", "rgb", "--size", "16x9", "-o",
                                 "drawn.png")
+
+    @unittest.skipIf(IS_SLOW, "solves a dense atmosphere")
+    def test_no_ground_shows_through_the_clouds_of_venus(self):
+        self.expect_success("render", SCENES / "venus.json", "--view", "limb", "--spectrum", "rgb", "--size", "16x90",
+                            "-o", "limb.png")
+        rows = [sum(row) / len(row) for row in read_png(self.work / "limb.png")[2]]
+        clouds = [row for row in rows if row > 100]
+        self.assertGreater(len(clouds), 45)
+        # From the limb down brighter and brighter, and in no place by steps: the horizon of the ground was a line.
+        for above, below in zip(clouds, clouds[1:]):
+            self.assertTrue(-1 < below - above < 6, clouds)
 
 
 class Photometry(ProgramTest):
