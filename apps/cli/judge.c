@@ -6,6 +6,7 @@
 
 static const double FALSE_ALARMS = 0.01; // of a whole run
 static const double FLOOR_SHARE = 0.01;  // of the view's mean
+static const double CLAIM_SIGMAS = 2;    // behind "shown to be within", on one side
 
 double judge_granted_sigmas(int trials)
 {
@@ -24,43 +25,146 @@ double judge_granted_sigmas(int trials)
     return 0.5 * (low + high);
 }
 
-static double subtract_squares(double a, double b)
+double judge_scale(const struct judge_values *values, int index)
 {
-    return a > b ? sqrt(a * a - b * b) : 0;
+    double mean = 0;
+    for (int i = 0; i < values->count; i++) {
+        mean += fabs(values->reference[i]) / values->count;
+    }
+    return fmax(fabs(values->reference[index]), FLOOR_SHARE * mean);
+}
+
+struct relative {
+    double error, sigma;
+};
+
+static struct relative make_relative(const struct judge_values *values, int index)
+{
+    const double scale = judge_scale(values, index);
+    const double error = values->answer[index] - values->reference[index];
+    if (scale > 0) {
+        return (struct relative){error / scale, values->standard_error[index] / scale};
+    }
+    // All paths of the view came back black: right, or all of the light was missed.
+    return error == 0 ? (struct relative){0, 0} : (struct relative){1, 1};
+}
+
+// Of |x| with x normal about `error`: the folded normal distribution (Leone, Nelson and Nottingham
+// 1961, Technometrics 3).
+static double folded_mean(double error, double sigma)
+{
+    if (!(sigma > 0)) {
+        return error;
+    }
+    const double t = error / sigma;
+    return sigma * sqrt(2 / M_PI) * exp(-0.5 * t * t) + error * erf(t / sqrt(2));
+}
+
+// The mean of all |x| if every error had the same size, and the standard deviation of that mean.
+static double mean_size(const struct judge_values *values, double error, double *deviation)
+{
+    const double n = values->count;
+    double mean = 0;
+    double variance = 0;
+    for (int i = 0; i < values->count; i++) {
+        const double sigma = make_relative(values, i).sigma;
+        const double folded = folded_mean(error, sigma);
+        mean += folded / n;
+        variance += fmax(0, error * error + sigma * sigma - folded * folded) / (n * n);
+    }
+    *deviation = sqrt(variance);
+    return mean;
+}
+
+// The size of errors of which noise makes `size`, when that is `sigmas` deviations too small; 0
+// where noise alone makes more.
+static double solve_size(const struct judge_values *values, double size, double sigmas)
+{
+    double low = 0;
+    double high = 2 * size + 10 * sigmas * size + 1e-300;
+    for (int i = 0; i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        double deviation;
+        const double mean = mean_size(values, middle, &deviation);
+        if (mean - sigmas * deviation < size) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static void judge_values_alone(const struct judge_values *values, struct judgement *out)
+{
+    const double granted = judge_granted_sigmas(values->trials);
+    for (int i = 0; i < values->count; i++) {
+        const struct relative r = make_relative(values, i);
+        out->largest_noise = fmax(out->largest_noise, granted * r.sigma);
+        if (r.sigma <= JUDGE_KNOWN_NOISE) {
+            out->known++;
+            out->largest = fmax(out->largest, fabs(r.error) - granted * r.sigma);
+        }
+    }
+}
+
+// Sums over values, as parts of a mean over all.
+struct sums {
+    double size, signed_size, noise, variance;
+};
+
+static struct sums add_values(const struct judge_values *values, double most_noise)
+{
+    const double n = values->count;
+    struct sums sums = {0};
+    for (int i = 0; i < values->count; i++) {
+        const struct relative r = make_relative(values, i);
+        if (r.sigma <= most_noise) {
+            sums.size += fabs(r.error) / n;
+            sums.signed_size += r.error / n;
+            sums.noise += r.sigma / n;
+            sums.variance += r.sigma * r.sigma / (n * n);
+        }
+    }
+    return sums;
+}
+
+// What the mean size surely exceeds: it is no smaller than the part of the values whose noise is
+// known, which is no smaller than the size of their signed sum; and noise adds at most its own mean
+// size to a size.
+static double least_mean(const struct judge_values *values)
+{
+    const struct sums known = add_values(values, JUDGE_KNOWN_NOISE);
+    const int views = values->count > 0 ? values->trials / values->count : 1;
+    const double granted = judge_granted_sigmas(views) * sqrt(known.variance);
+    const double by_size = known.size - sqrt(2 / M_PI) * known.noise - granted;
+    const double by_sign = fabs(known.signed_size) - granted;
+    return fmax(0, fmax(by_size, by_sign));
+}
+
+static void judge_mean(const struct judge_values *values, struct judgement *out)
+{
+    const struct sums all = add_values(values, INFINITY);
+    out->signed_mean = all.signed_size;
+    out->signed_noise = sqrt(all.variance);
+    out->noise = all.noise;
+    out->mean = solve_size(values, all.size, 0);
+    out->mean_high = solve_size(values, all.size, CLAIM_SIGMAS);
+    out->mean_low = least_mean(values);
 }
 
 struct judgement judge(const struct judge_values *values)
 {
-    struct judgement out = {0};
-    const double n = values->count;
-    const double sigmas = judge_granted_sigmas(values->trials);
-    double floor = 0;
-    for (int i = 0; i < values->count; i++) {
-        floor += FLOOR_SHARE * fabs(values->reference[i]) / n;
-    }
-    double size = 0;     // mean of |error|
-    double variance = 0; // of that mean, by noise
-    for (int i = 0; i < values->count; i++) {
-        const double scale = fmax(fmax(fabs(values->reference[i]), floor), 1e-300);
-        const double error = fabs(values->answer[i] - values->reference[i]) / scale;
-        const double sigma = values->standard_error[i] / scale;
-        size += error / n;
-        out.noise += sigma / n;
-        // |normal| has the mean sqrt(2/pi) and the variance 1 - 2/pi.
-        out.mean_noise += sqrt(2 / M_PI) * sigma / n;
-        variance += (1 - 2 / M_PI) * sigma * sigma / (n * n);
-        out.largest = fmax(out.largest, error - sigmas * sigma);
-        out.largest_noise = fmax(out.largest_noise, sigmas * sigma);
-    }
-    out.mean = subtract_squares(size, out.mean_noise);
-    const double granted =
-        judge_granted_sigmas(values->count > 0 ? values->trials / values->count : 1); // to means
-    const double certain = subtract_squares(size - granted * sqrt(variance), out.mean_noise);
-    if (certain > JUDGE_MEAN_BOUND || out.largest > JUDGE_LARGEST_BOUND) {
+    struct judgement out = {.verdict = VERDICT_NOISY};
+    judge_values_alone(values, &out);
+    judge_mean(values, &out);
+    const double signed_high = fabs(out.signed_mean) + CLAIM_SIGMAS * out.signed_noise;
+    if (out.mean_low > JUDGE_MEAN_BOUND || out.largest > JUDGE_LARGEST_BOUND) {
         out.verdict = VERDICT_BAD;
-    } else if (out.mean > JUDGE_MEAN_BOUND || out.mean_noise > JUDGE_MEAN_BOUND ||
-               out.largest_noise > JUDGE_LARGEST_BOUND) {
-        out.verdict = VERDICT_NOISY;
+    } else if (out.mean_high <= JUDGE_MEAN_BOUND && out.largest_noise <= JUDGE_LARGEST_BOUND) {
+        out.verdict = VERDICT_GOOD;
+    } else if (signed_high <= JUDGE_MEAN_BOUND) {
+        out.verdict = VERDICT_MEAN;
     }
     return out;
 }

@@ -18,12 +18,21 @@ enum {
     VALIDATE_PLACES = 3, // ground, 10 km, orbit
     VALIDATE_SUNS = 5,
     VALIDATE_CASES = VALIDATE_PLACES * VALIDATE_SUNS,
+    VALIDATE_ROWS = 128, // of a picture, at most
     VALIDATE_MAX_SCENES = OPTIONS_MAX_POSITIONALS
 };
 
-// Picture and map as they stand on the page; owned texts, NULL where there is none.
+// Rows of a picture, from the top: what its middle third shows in the mean.
+struct validate_profile {
+    int rows;                                              // 0: there is none
+    double luminance[VALIDATE_ROWS], error[VALIDATE_ROWS]; // cd m^-2
+};
+
+// As they stand on the page; owned texts, NULL where there is none.
 struct validate_pictures {
     char *picture, *map; // "data:image/png;base64,…"
+    struct validate_profile profile;
+    double mean, mean_noise; // signed difference of luminance, pixel by pixel, and standard error
 };
 
 struct validate_answer {
@@ -41,9 +50,12 @@ struct validate_case {
     trl_sky_query queries[VALIDATE_VALUES]; // direction by direction, wavelengths fastest
     int count;                              // of the queries in use
     double reference[VALIDATE_VALUES], error[VALIDATE_VALUES]; // and its standard error
-    double paths;                                              // of each value, so far
-    double traced_s;                                           // wall clock
-    double map_range;
+    double paths[VALIDATE_VALUES];                             // so far
+    double traced_s, traced_paths;                             // wall clock, and for how many
+    struct validate_pictures traced;                           // without a map
+    uint32_t traced_width;                                     // of the picture, in pixels
+    double traced_pixel_paths;
+    double pitch_rad, vertical_fov_rad; // of the pictures
     struct validate_answer answers[VALIDATE_MODELS];
 };
 
@@ -66,6 +78,7 @@ struct validate {
     struct validate_scene scenes[VALIDATE_MAX_SCENES];
     int scene_count;
     double spent_s;
+    uint64_t rounds; // of tracing so far: each has a seed of its own
 };
 
 // Loads, without the surface: all models then see the sphere that the path tracer sees. Errors are
@@ -76,19 +89,36 @@ void validate_finish(struct validate *v);
 // The scenes that ship with the program.
 enum exit_status validate_load_shipped(struct validate *v);
 
-// Numbers and pictures by the models.
+// Numbers by the models.
 enum exit_status validate_ask_models(struct validate *v);
+// A few paths of each value by the path tracer, so that noise and costs are known.
+enum exit_status validate_probe(struct validate *v);
+// Pictures by the models and the path tracer, and how they differ.
+enum exit_status validate_draw(struct validate *v);
 // Numbers by the path tracer, within the time that is left.
 enum exit_status validate_trace(struct validate *v);
+
+// Seconds since the start.
+double validate_spent_s(const struct validate *v);
+// Relative standard error of value `index` if it had one path. 0: black, whatever is traced.
+double validate_path_noise(const struct validate_case *c, int index);
+// Wall clock of one path of one value.
+double validate_path_cost_s(const struct validate_case *c);
 // Compares; afterwards every answer has its judgement.
 void validate_judge(struct validate *v);
 
+// Paths of a value, in the mean of the view.
+double validate_mean_paths(const struct validate_case *c);
+
 // How all views of a scene together, or of all scenes (NULL), look for a model.
 struct validate_total {
-    int views, bad, noisy;
-    double mean;    // of the views' means
-    double largest; // of all values
-    double noise;   // mean standard error, relative
+    int views, good, mean_only, noisy, bad;
+    int known; // views whose noise is known, see JUDGE_KNOWN_NOISE; the next four are theirs
+    double signed_mean; // of all values
+    double variance;    // sum over the views of those of their signed means
+    double mean;        // of the views' means
+    double largest;     // of all values
+    double path_count;  // of all values together
 };
 struct validate_total validate_sum(const struct validate *v, const struct validate_scene *scene,
                                    int model);

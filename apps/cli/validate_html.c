@@ -4,6 +4,7 @@
 #include "validate.h"
 
 #include "output.h"
+#include "validate_map.h"
 #include "validate_plot.h"
 #include "validate_style.h"
 
@@ -12,11 +13,14 @@
 #include <string.h>
 #include <time.h>
 
-static const char *const verdict_classes[] = {
-    [VERDICT_GOOD] = "good", [VERDICT_NOISY] = "noisy", [VERDICT_BAD] = "bad"};
-static const char *const verdict_words[] = {[VERDICT_GOOD] = "within the bounds",
-                                            [VERDICT_NOISY] = "noise hides the bounds",
-                                            [VERDICT_BAD] = "outside the bounds"};
+static const char *const verdict_classes[] = {[VERDICT_GOOD] = "good",
+                                              [VERDICT_MEAN] = "mean",
+                                              [VERDICT_NOISY] = "noisy",
+                                              [VERDICT_BAD] = "bad"};
+static const char *const verdict_words[] = {[VERDICT_GOOD] = "within",
+                                            [VERDICT_MEAN] = "mean within",
+                                            [VERDICT_NOISY] = "noisy",
+                                            [VERDICT_BAD] = "outside"};
 
 // Upper ends of the colours of errors; what is larger has the last one.
 static const double error_steps[] = {0.005, 0.01, 0.02, 0.05, 0.2};
@@ -69,57 +73,82 @@ static void write_head(FILE *page)
             validate_style);
 }
 
+static enum verdict worst_verdict(const struct validate_total *t)
+{
+    if (t->bad > 0) {
+        return VERDICT_BAD;
+    }
+    return t->noisy > 0 ? VERDICT_NOISY : (t->mean_only > 0 ? VERDICT_MEAN : VERDICT_GOOD);
+}
+
 static void write_summary(FILE *page, const struct validate *v)
 {
     const struct validate_total t = validate_sum(v, NULL, TRL_SKY_SPECTRAL);
-    const enum verdict verdict =
-        t.bad > 0 ? VERDICT_BAD : (t.noisy > 0 ? VERDICT_NOISY : VERDICT_GOOD);
-    fprintf(page, "<p class=\"summary %s\">", verdict_classes[verdict]);
+    fprintf(page, "<p class=\"summary %s\">", verdict_classes[worst_verdict(&t)]);
     if (t.bad > 0) {
-        fprintf(page, "The spectral model is <b>outside its bounds in %d of %d views</b>", t.bad,
+        fprintf(page, "The spectral model is <b>outside its bounds in %d of %d views</b>.", t.bad,
                 t.views);
-    } else if (t.noisy > 0) {
-        fprintf(page,
-                "The spectral model is <b>nowhere seen outside its bounds</b>: %d of %d views are "
-                "shown to be within, in %d the noise of the path tracer is larger than a bound",
-                t.views - t.noisy, t.views, t.noisy);
+    } else if (t.good == t.views) {
+        fprintf(page, "The spectral model is <b>within its bounds in all %d views</b>.", t.views);
     } else {
-        fprintf(page, "The spectral model is <b>within its bounds in all %d views</b>", t.views);
+        fprintf(page,
+                "The spectral model is <b>nowhere seen outside its bounds</b>. Of %d views %d are "
+                "shown to be within, in %d more the mean is, and %d are too noisy to tell.",
+                t.views, t.good, t.mean_only, t.noisy);
     }
+    fprintf(
+        page,
+        " Over the %d views with a noise below %.0f&nbsp;%% it is off by %+.2f&nbsp;&plusmn;&nbsp;"
+        "%.2f&nbsp;%% in the signed mean, and by %.2f&nbsp;%% at most beyond the noise.</p>\n",
+        t.known, 100 * JUDGE_KNOWN_NOISE, 100 * t.signed_mean,
+        100 * sqrt(t.variance) / fmax(t.known, 1), 100 * t.largest);
+}
+
+static void write_comparison(FILE *page, const struct validate_total *t)
+{
     fprintf(page,
-            ". Beyond the noise it is off by %.2f&nbsp;%% in the mean of the views and by "
-            "%.2f&nbsp;%% at most.</p>\n",
-            100 * t.mean, 100 * t.largest);
+            "<p>Radiance that reaches an observer on the ground, at 10&nbsp;km and outside the "
+            "air, under a sun from noon to 6&deg; below the horizon. Each view has %d directions "
+            "at 450, 550 and 650&nbsp;nm. The ground is a sphere with the scene&rsquo;s mean "
+            "albedo. The reference is a Monte Carlo path tracer that follows all orders of "
+            "scattering and shares no transport code with the models: %.3g million paths.</p>\n",
+            VALIDATE_DIRECTIONS, 1e-6 * t->path_count);
 }
 
 static void write_explanation(FILE *page, const struct validate *v)
 {
+    const struct validate_total t = validate_sum(v, NULL, TRL_SKY_SPECTRAL);
+    write_comparison(page, &t);
     fprintf(page,
-            "<p><b>What is compared.</b> The spectral radiance that reaches an observer on the "
-            "ground, at 10&nbsp;km and outside the air, under a sun from noon to 6&deg; below the "
-            "horizon: in each of these views %d directions at 450, 550 and 650&nbsp;nm. The ground "
-            "is a sphere with the scene&rsquo;s mean albedo. Each model answers at exactly these "
-            "wavelengths. The reference is a Monte Carlo path tracer that follows all orders of "
-            "scattering and shares no transport code with the models.</p>\n",
-            VALIDATE_DIRECTIONS);
+            "<details><summary>What the numbers mean</summary>\n<dl>"
+            "<dt>noise</dt><dd>A path tracer averages random paths and tells how far that average "
+            "is likely off: its standard error. Given is the mean of a view&rsquo;s values.</dd>"
+            "<dt>signed mean</dt><dd>Mean of the relative errors with their signs, and its "
+            "standard error. Noise averages out in it; so do errors of both signs.</dd>"
+            "<dt>mean</dt><dd>Mean size of the relative errors, with what noise adds to sizes "
+            "taken out.</dd>"
+            "<dt>largest</dt><dd>The largest error beyond the %.1f standard errors that the "
+            "unluckiest of all values may be off. Values with a standard error above %.0f&nbsp;%% "
+            "are left out.</dd>"
+            "<dt>error</dt><dd>Relative to the value, or to a hundredth of the view&rsquo;s mean "
+            "where the value is smaller.</dd></dl></details>\n",
+            judge_granted_sigmas(t.views * VALIDATE_VALUES), 100 * JUDGE_KNOWN_NOISE);
     fprintf(page,
-            "<p><b>What noise is.</b> A path tracer averages random paths, and tells how far that "
-            "average is likely off: its standard error. Noise makes errors look larger than they "
-            "are. So the <i>mean</i> of a view is the mean size of the relative errors with what "
-            "noise alone would give taken out (as squares), and the <i>largest</i> is the largest "
-            "error beyond the %.1f standard errors that the luckiest of all values may be off. An "
-            "error is relative to the value, or to a hundredth of the view&rsquo;s mean where the "
-            "value is smaller.</p>\n"
-            "<p><b>The bounds</b> of the spectral model are %.0f&nbsp;%% in the mean and "
-            "%.0f&nbsp;%% at most, in every view. Where the noise itself is larger than that, the "
-            "view says so. The other models have one order of scattering by design; their errors "
-            "are shown, not judged. Their largest errors belong to dark directions: the error is "
-            "relative to the direction&rsquo;s own light, so 300&nbsp;%% of a value that is a "
-            "hundredth of the view&rsquo;s mean is 3&nbsp;%% of that mean. After sunset nearly all "
-            "light has been scattered twice or more, and an error near 100&nbsp;%% says that a "
-            "model of one scattering has hardly any.</p>\n",
-            judge_granted_sigmas(validate_sum(v, NULL, TRL_SKY_SPECTRAL).views * VALIDATE_VALUES),
-            100 * JUDGE_MEAN_BOUND, 100 * JUDGE_LARGEST_BOUND);
+            "<details><summary>When the spectral model passes</summary>\n<dl>"
+            "<dt><span class=\"verdict good\">within</span></dt><dd>The mean size is shown to be "
+            "at most %.0f&nbsp;%%, no value is off by more than %.0f&nbsp;%% beyond its noise, and "
+            "no noise is larger than that.</dd>"
+            "<dt><span class=\"verdict mean\">mean within</span></dt><dd>The signed mean is shown "
+            "to be within %.0f&nbsp;%%. Noise hides how large single errors are.</dd>"
+            "<dt><span class=\"verdict noisy\">noisy</span></dt><dd>Nothing is seen to be wrong, "
+            "but the noise is too large to tell in the time that there was.</dd>"
+            "<dt><span class=\"verdict bad\">outside</span></dt><dd>An error that noise does not "
+            "explain.</dd></dl>\n"
+            "<p>The other models have one order of scattering by design: their errors are shown, "
+            "not judged. After sunset nearly all light has been scattered twice or more, and an "
+            "error near 100&nbsp;%% says that a model of one scattering has hardly any.</p>"
+            "</details>\n",
+            100 * JUDGE_MEAN_BOUND, 100 * JUDGE_LARGEST_BOUND, 100 * JUDGE_MEAN_BOUND);
 }
 
 // In %, with as many digits as there is a use for.
@@ -135,26 +164,38 @@ static void write_errors(FILE *page, double mean, double largest)
     fprintf(page, "<td class=\"e%d\">", error_step(mean));
     write_percent(page, mean);
     fprintf(page, " / ");
-    write_percent(page, largest);
+    if (largest >= 0) {
+        write_percent(page, largest);
+    } else {
+        fprintf(page, "&ndash;");
+    }
     fprintf(page, "</td>");
+}
+
+// -1: all values are too noisy to have one.
+static double known_largest(const struct judgement *j)
+{
+    return j->known > 0 ? j->largest : -1;
 }
 
 static void write_color_key(FILE *page)
 {
-    fprintf(page, "<p class=\"key\">Mean error: <span class=\"k0\">up to 0.5&nbsp;%%</span>"
-                  "<span class=\"k1\">1&nbsp;%%</span><span class=\"k2\">2&nbsp;%%</span>"
-                  "<span class=\"k3\">5&nbsp;%%</span><span class=\"k4\">20&nbsp;%%</span>"
-                  "<span class=\"k5\">more</span></p>\n");
+    fprintf(page, "<p class=\"key\">Mean error: <span class=\"e0\">up to 0.5&nbsp;%%</span>"
+                  "<span class=\"e1\">1&nbsp;%%</span><span class=\"e2\">2&nbsp;%%</span>"
+                  "<span class=\"e3\">5&nbsp;%%</span><span class=\"e4\">20&nbsp;%%</span>"
+                  "<span class=\"e5\">more</span></p>\n");
 }
 
 static void write_overview(FILE *page, const struct validate *v)
 {
-    fprintf(page, "<h2>All scenes</h2>\n<p class=\"faint\">Errors in %%, mean / largest of all "
-                  "views.</p>\n<div class=\"scroll\"><table>\n<tr><th>scene</th>");
+    fprintf(page, "<h2>All scenes</h2>\n<p class=\"faint\">Errors in %%, mean / largest, of all "
+                  "views with a noise below 5&nbsp;%%.</p>\n<div "
+                  "class=\"scroll\"><table>\n<tr><th>scene</th>");
     for (int m = 0; m < VALIDATE_MODELS; m++) {
         fprintf(page, "<th>%s</th>", model_name(m));
     }
-    fprintf(page, "<th>noise</th><th>views within bounds</th></tr>\n");
+    fprintf(page, "<th>signed mean of spectral</th><th>within</th><th>mean within</th>"
+                  "<th>noisy</th><th>outside</th></tr>\n");
     for (int s = 0; s < v->scene_count; s++) {
         const struct validate_scene *scene = &v->scenes[s];
         fprintf(page, "<tr><td><a href=\"#s%d\">", s);
@@ -163,18 +204,16 @@ static void write_overview(FILE *page, const struct validate *v)
         for (int m = 0; m < VALIDATE_MODELS; m++) {
             const struct validate_total t = validate_sum(v, scene, m);
             if (t.views > 0) {
-                write_errors(page, t.mean, t.largest);
+                write_errors(page, t.mean, t.known > 0 ? t.largest : -1);
             } else {
                 fprintf(page, "<td class=\"none\">no answer</td>");
             }
         }
         const struct validate_total t = validate_sum(v, scene, TRL_SKY_SPECTRAL);
-        fprintf(page, "<td>%.2f</td><td>%d of %d", 100 * t.noise, t.views - t.bad - t.noisy,
-                t.views);
-        if (t.noisy > 0) {
-            fprintf(page, ", %d noisy", t.noisy);
-        }
-        fprintf(page, "</td></tr>\n");
+        fprintf(page,
+                "<td>%+.2f &plusmn; %.2f</td><td>%d</td><td>%d</td><td>%d</td><td>%d</td></tr>\n",
+                100 * t.signed_mean, 100 * sqrt(t.variance) / fmax(t.known, 1), t.good, t.mean_only,
+                t.noisy, t.bad);
     }
     fprintf(page, "</table></div>\n");
     write_color_key(page);
@@ -193,15 +232,18 @@ static void write_row(FILE *page, const struct validate_case *c)
     for (int m = 0; m < VALIDATE_MODELS; m++) {
         const struct validate_answer *answer = &c->answers[m];
         if (answer->is_there) {
-            write_errors(page, answer->judgement.mean, answer->judgement.largest);
+            write_errors(page, answer->judgement.mean, known_largest(&answer->judgement));
         } else {
             fprintf(page, "<td class=\"none\">&ndash;</td>");
         }
     }
     const struct judgement *j = &c->answers[TRL_SKY_SPECTRAL].judgement;
-    fprintf(page, "<td>%.2f</td><td><span class=\"verdict %s\">%s</span></td>", 100 * j->noise,
+    fprintf(page,
+            "<td>%+.2f &plusmn; %.2f</td><td>%.2f</td>"
+            "<td><span class=\"verdict %s\">%s</span></td>",
+            100 * j->signed_mean, 100 * j->signed_noise, 100 * j->noise,
             verdict_classes[j->verdict], verdict_words[j->verdict]);
-    fprintf(page, "<td>%.0f</td><td>%.1f</td><td>", c->paths, c->traced_s);
+    fprintf(page, "<td>%.0f</td><td>%.1f</td><td>", validate_mean_paths(c), c->traced_s);
     for (int m = 0; m < VALIDATE_MODELS; m++) {
         fputs(m ? " / " : "", page);
         if (c->answers[m].frame_ms > 0) {
@@ -219,35 +261,65 @@ static void write_table(FILE *page, const struct validate_scene *scene)
     for (int m = 0; m < VALIDATE_MODELS; m++) {
         fprintf(page, "<th>%s %%</th>", model_name(m));
     }
-    fprintf(page, "<th>noise %%</th><th>spectral is</th><th>paths</th><th>traced, s</th>"
-                  "<th>frames, ms</th></tr>\n");
+    fprintf(page, "<th>signed mean %%</th><th>noise %%</th><th>spectral is</th>"
+                  "<th>paths a value</th><th>traced, s</th><th>frames, ms</th></tr>\n");
     for (int c = 0; c < scene->case_count; c++) {
         write_row(page, &scene->cases[c]);
     }
     fprintf(page, "</table></div>\n");
 }
 
+static void write_traced(FILE *page, const struct validate_case *c)
+{
+    if (!c->traced.picture) {
+        return;
+    }
+    const struct validate_profile *p = &c->traced.profile;
+    fprintf(page,
+            "<figure><img alt=\"%s by the path tracer\" src=\"%s\"><figcaption><b>path "
+            "tracer</b><br>%u&nbsp;&times;&nbsp;%d pixels, %.0f paths each</figcaption></figure>\n",
+            c->place, c->traced.picture, c->traced_width, p->rows, c->traced_pixel_paths);
+}
+
 static void write_figure(FILE *page, const struct validate_case *c, int model)
 {
     const struct validate_answer *answer = &c->answers[model];
-    if (!answer->pictures.picture) {
+    const struct validate_pictures *pictures = &answer->pictures;
+    if (!pictures->picture) {
         return;
     }
     fprintf(page, "<figure><img alt=\"%s by %s\" src=\"%s\">", c->place, model_name(model),
-            answer->pictures.picture);
-    if (answer->pictures.map) {
-        fprintf(page, "<img alt=\"difference of %s\" src=\"%s\">", model_name(model),
-                answer->pictures.map);
+            pictures->picture);
+    if (pictures->map) {
+        fprintf(page, "<img class=\"map\" alt=\"difference of %s\" src=\"%s\">", model_name(model),
+                pictures->map);
     }
     fprintf(page, "<figcaption><b>%s</b>", model_name(model));
+    if (pictures->mean_noise > 0) {
+        fprintf(page, "<br>picture %+.1f &plusmn; %.1f&nbsp;%%", 100 * pictures->mean,
+                100 * pictures->mean_noise);
+    }
     if (answer->is_there) {
-        fprintf(page, "<br>mean ");
+        fprintf(page, "<br>values off by ");
         write_percent(page, answer->judgement.mean);
-        fprintf(page, "&nbsp;%%, largest ");
-        write_percent(page, answer->judgement.largest);
         fprintf(page, "&nbsp;%%");
     }
-    fprintf(page, "<br>frame %.0f&nbsp;ms</figcaption></figure>\n", answer->frame_ms);
+    fprintf(page, "</figcaption></figure>\n");
+}
+
+static void write_plots(FILE *page, const struct validate_case *c)
+{
+    fprintf(page, "<div class=\"plots\">");
+    if (c->traced.profile.rows > 0) {
+        fprintf(page, "<figure class=\"plot\">");
+        validate_plot_profiles(page, c);
+        fprintf(page, "<figcaption>Luminance, cd/m&sup2;, over elevation: path tracer (dots), "
+                      "spectral (blue), single (red), rayleigh (green)</figcaption></figure>");
+    }
+    fprintf(page, "<figure class=\"plot\">");
+    validate_plot_errors(page, c);
+    fprintf(page, "<figcaption>Errors of spectral, value by value; bars are one standard "
+                  "error</figcaption></figure></div>\n");
 }
 
 static void write_view(FILE *page, const struct validate_case *c)
@@ -257,16 +329,12 @@ static void write_view(FILE *page, const struct validate_case *c)
     write_view_name(page, c);
     fprintf(page, "<span class=\"verdict %s\">%s</span></h3>\n<div class=\"view\">\n",
             verdict_classes[j->verdict], verdict_words[j->verdict]);
+    write_traced(page, c);
     for (int m = 0; m < VALIDATE_MODELS; m++) {
         write_figure(page, c, m);
     }
-    fprintf(page, "<figure class=\"plot\">");
-    validate_plot_errors(page, c);
-    fprintf(page,
-            "<figcaption><b>spectral</b> against the path tracer, value by value; bars are "
-            "one standard error of %.0f paths, %.2f&nbsp;%% in the mean</figcaption></figure>\n"
-            "</div>\n",
-            c->paths, 100 * j->noise);
+    fprintf(page, "</div>\n");
+    write_plots(page, c);
 }
 
 static void write_scene(FILE *page, const struct validate *v, int index)
@@ -292,18 +360,40 @@ static void write_scene(FILE *page, const struct validate *v, int index)
     }
 }
 
+static void write_step(FILE *page, int step, bool is_brighter)
+{
+    const struct canvas_color c = validate_map_color(step, is_brighter);
+    const double low = step > 0 ? 100 * validate_map_steps[step - 1] : 0;
+    fprintf(page, "<span style=\"background:rgb(%d,%d,%d);color:%s\">", c.red, c.green, c.blue,
+            step < 3 ? "#1d2026" : "#fff");
+    if (step > 0) {
+        fprintf(page, "%s%.0f</span>", is_brighter ? "+" : "&minus;", low);
+    } else {
+        fprintf(page, "0</span>");
+    }
+}
+
 static void write_map_key(FILE *page)
 {
-    fprintf(
-        page,
-        "<h2>Pictures and maps</h2>\n<p>Each view below is drawn by every model with the "
-        "exposure of the first, looking toward the sun&rsquo;s side. Below the pictures of the "
-        "others stand maps of how their luminance differs from the spectral model&rsquo;s:</p>\n"
-        "<div class=\"bar\"></div><div class=\"ends faint\"><span>50&nbsp;%% darker</span>"
-        "<span>the same</span><span>50&nbsp;%% brighter</span></div>\n"
-        "<p class=\"faint\">Grey: both black. In the plots blue, green and red stand for 450, "
-        "550 and 650&nbsp;nm; the numbers below are degrees from the zenith and from the "
-        "sun&rsquo;s azimuth; the band is the bound of the mean.</p>\n");
+    fprintf(page,
+            "<h2>Pictures and maps</h2>\n<p>Each view below is traced, and drawn by every model "
+            "with the exposure of the spectral one, looking toward the sun&rsquo;s side. Traced "
+            "pictures are smaller and grainy. Below each model&rsquo;s picture stands a map of how "
+            "its luminance differs from the traced one. Steps begin at, in %%:</p>\n"
+            "<div class=\"steps\">");
+    for (int step = VALIDATE_MAP_STEPS; step > 0; step--) {
+        write_step(page, step, false);
+    }
+    for (int step = 0; step <= VALIDATE_MAP_STEPS; step++) {
+        write_step(page, step, true);
+    }
+    fprintf(page,
+            "</div>\n<p class=\"faint\">Blue: too dark; red: too bright. A difference below three "
+            "standard errors of its pixel is shown as none. Grey: both black. "
+            "&ldquo;Picture&rdquo; is the mean difference "
+            "of all pixels without edges. In the plots of errors blue, green and red stand for "
+            "450, 550 and 650&nbsp;nm; the numbers below are degrees from the zenith and from the "
+            "sun&rsquo;s azimuth; the band is the bound of the mean.</p>\n");
 }
 
 static void write_foot(FILE *page, const struct validate *v)
@@ -320,7 +410,7 @@ static void write_foot(FILE *page, const struct validate *v)
     fprintf(page, ", %d cores, load %.1f at the start; pictures by ", v->machine.cores,
             v->machine.load_average);
     write_escaped(page, v->machine.gl_renderer);
-    fprintf(page, ". Times of frames are for 416&nbsp;&times;&nbsp;234 pixels, the maps of the sky "
+    fprintf(page, ". Times of frames are for 288&nbsp;&times;&nbsp;160 pixels, the maps of the sky "
                   "made anew.</p>\n</body>\n</html>\n");
 }
 

@@ -153,6 +153,7 @@ void validate_finish(struct validate *v)
     for (int s = 0; s < v->scene_count; s++) {
         struct validate_scene *scene = &v->scenes[s];
         for (int c = 0; c < scene->case_count; c++) {
+            free(scene->cases[c].traced.picture);
             for (int m = 0; m < VALIDATE_MODELS; m++) {
                 free(scene->cases[c].answers[m].pictures.picture);
                 free(scene->cases[c].answers[m].pictures.map);

@@ -10,7 +10,7 @@ import unittest
 from process import ProgramTest, require_gl
 
 PATHS = 200
-VOID = {"meta", "img", "br", "path", "circle", "rect"}
+VOID = {"meta", "img", "br", "path", "circle", "rect", "polyline"}
 
 
 class Page(html.parser.HTMLParser):
@@ -70,12 +70,14 @@ class Validate(ProgramTest):
                          [(place, sun) for place in ["ground", "10 km", "orbit"] for sun in [60, 3, -6]])
         for view in scene["views"]:
             reference, spectral = view["reference"], view["models"]["spectral"]
-            self.assertEqual(reference["paths"], PATHS)
+            self.assertEqual(reference["paths"], [PATHS] * 18)
             self.assertEqual(len(reference["radiance"]), 18)
             self.assertEqual(len(reference["standard_error"]), 18)
             self.assertEqual(len(spectral["radiance"]), 18)
-            self.assertIn(spectral["verdict"], ["good", "noisy", "bad"])
+            self.assertIn(spectral["verdict"], ["good", "mean", "noisy", "bad"])
             self.assertGreaterEqual(spectral["largest"], 0.0)
+        counted = [found["spectral"][word] for word in ["good", "mean_only", "noisy", "bad"]]
+        self.assertEqual(sum(counted), 9)
         # Thin air by day: what is computed exactly and what is traced agree.
         noon = scene["views"][0]
         for exact, traced in zip(noon["models"]["spectral"]["radiance"], noon["reference"]["radiance"]):
@@ -88,7 +90,7 @@ class Validate(ProgramTest):
         self.assertTrue(text.startswith("<!DOCTYPE html>"))
         page = Page(text)
         words = "".join(page.text)
-        for word in ["What is compared", "What noise is", "The bounds", "All scenes", "Thin", "sun 6° below the horizon"]:
+        for word in ["What the numbers mean", "When the spectral model passes", "All scenes", "path tracer", "Thin", "sun 6° below the horizon"]:
             self.assertIn(word, words)
         # Nothing is fetched: pictures stand in the page, links stay in it.
         self.assertGreater(len(page.links), 9)
@@ -102,8 +104,21 @@ class Validate(ProgramTest):
                 self.assertEqual(picture[-8:-4], b"IEND")
         for word in ["http:", "https:", "url(", "@import", "<script"]:
             self.assertNotIn(word, text)
-        self.assertEqual(page.tags.count("svg"), 9)
+        self.assertEqual(page.tags.count("svg"), 2 * 9)
+        # Each view: four pictures, and a map of each model.
+        self.assertEqual(page.tags.count("img"), 7 * 9)
+        self.assertLess(len(text), 3000000 * 9 / 75)
         self.assertEqual([path.name for path in self.work.iterdir()], ["report.html"])
+
+    def test_values_have_paths_of_their_own(self):
+        """However little time there is, each has those of the first look; the rest goes where it decides most."""
+        done = self.run_program("validate", self.scene, "--quick", "--seconds", 3, "--json")
+        self.assertIn(done.returncode, [0, 1], done.stderr)
+        for view in json.loads(done.stdout)["scenes"][0]["views"]:
+            reference = view["reference"]
+            self.assertGreaterEqual(min(reference["paths"]), 64)
+            noise = [error / value for error, value in zip(reference["standard_error"], reference["radiance"])]
+            self.assertAlmostEqual(sum(noise) / 18, reference["noise"], delta=0.2 * reference["noise"])
 
     def test_what_is_wrong_is_told(self):
         self.expect_failure(2, ["validate", self.scene, "--paths", "1"], ["--paths"])
