@@ -133,22 +133,25 @@ static void write_explanation(FILE *page, const struct validate *v)
             "<dt>error</dt><dd>Relative to the value, or to a hundredth of the view&rsquo;s mean "
             "where the value is smaller.</dd></dl></details>\n",
             judge_granted_sigmas(t.views * VALIDATE_VALUES), 100 * JUDGE_KNOWN_NOISE);
-    fprintf(page,
-            "<details><summary>When the spectral model passes</summary>\n<dl>"
-            "<dt><span class=\"verdict good\">within</span></dt><dd>The mean size is shown to be "
-            "at most %.0f&nbsp;%%, no value is off by more than %.0f&nbsp;%% beyond its noise, and "
-            "no noise is larger than that.</dd>"
-            "<dt><span class=\"verdict mean\">mean within</span></dt><dd>The signed mean is shown "
-            "to be within %.0f&nbsp;%%. Noise hides how large single errors are.</dd>"
-            "<dt><span class=\"verdict noisy\">noisy</span></dt><dd>Nothing is seen to be wrong, "
-            "but the noise is too large to tell in the time that there was.</dd>"
-            "<dt><span class=\"verdict bad\">outside</span></dt><dd>An error that noise does not "
-            "explain.</dd></dl>\n"
-            "<p>The other models have one order of scattering by design: their errors are shown, "
-            "not judged. After sunset nearly all light has been scattered twice or more, and an "
-            "error near 100&nbsp;%% says that a model of one scattering has hardly any.</p>"
-            "</details>\n",
-            100 * JUDGE_MEAN_BOUND, 100 * JUDGE_LARGEST_BOUND, 100 * JUDGE_MEAN_BOUND);
+    fprintf(
+        page,
+        "<details><summary>When the spectral model passes</summary>\n<dl>"
+        "<dt><span class=\"verdict good\">within</span></dt><dd>The mean size is shown to be "
+        "at most %.0f&nbsp;%%, no value is off by more than %.0f&nbsp;%% beyond its noise, and "
+        "no noise is larger than that.</dd>"
+        "<dt><span class=\"verdict mean\">mean within</span></dt><dd>The signed mean is shown "
+        "to be within %.0f&nbsp;%%. Noise hides how large single errors are.</dd>"
+        "<dt><span class=\"verdict noisy\">noisy</span></dt><dd>Nothing is seen to be wrong, "
+        "but the noise is too large to tell in the time that there was.</dd>"
+        "<dt><span class=\"verdict bad\">outside</span></dt><dd>An error that noise does not "
+        "explain.</dd></dl>\n"
+        "<p>The other models have one order of scattering by design: their errors are shown, "
+        "not judged. After sunset nearly all light has been scattered twice or more, and an "
+        "error near 100&nbsp;%% says that a model of one scattering has hardly any. The table of "
+        "single knows no azimuth, so from outside it lights what lies in shadow, and errors "
+        "of a thousand per cent stand beside nearly black values.</p>"
+        "</details>\n",
+        100 * JUDGE_MEAN_BOUND, 100 * JUDGE_LARGEST_BOUND, 100 * JUDGE_MEAN_BOUND);
 }
 
 // In %, with as many digits as there is a use for.
@@ -228,7 +231,8 @@ static void write_view_name(FILE *page, const struct validate_case *c)
 
 static void write_row(FILE *page, const struct validate_case *c)
 {
-    fprintf(page, "<tr><td>%s</td><td>%g&deg;</td>", c->place, c->sun_elevation_deg);
+    fprintf(page, "<tr><td>%s</td><td>%s%g&deg;</td>", c->place,
+            c->sun_elevation_deg < 0 ? "&minus;" : "", fabs(c->sun_elevation_deg));
     for (int m = 0; m < VALIDATE_MODELS; m++) {
         const struct validate_answer *answer = &c->answers[m];
         if (answer->is_there) {
