@@ -11,9 +11,9 @@
 #define JUDGE_MEAN_BOUND 0.01
 #define JUDGE_LARGEST_BOUND 0.02
 
-// A relative standard error above this one is that of fewer than 400 paths that matter: too few to
+// A relative standard error above this one is that of fewer than 2500 paths that matter: too few to
 // know their spread by, and nobody is convicted by it.
-#define JUDGE_KNOWN_NOISE 0.05
+#define JUDGE_KNOWN_NOISE 0.02
 
 enum verdict {
     VERDICT_GOOD,  // shown to be within: mean size and every value

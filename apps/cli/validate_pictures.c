@@ -14,7 +14,7 @@ static const double rad_per_deg = 3.14159265358979323846 / 180.0;
 
 // Traced pictures are smaller by one of these factors, all of which divide both sides.
 static const struct number_size picture_size = {144, 80};
-static const uint32_t factors[] = {2, 4};
+static const uint32_t factors[] = {2, 4, 8};
 enum { FACTORS = sizeof factors / sizeof *factors };
 enum { PICTURE_SAMPLES = 2, LEAST_PATHS = 32, MOST_PATHS = 1024 };
 
@@ -23,6 +23,8 @@ enum { PICTURE_SAMPLES = 2, LEAST_PATHS = 32, MOST_PATHS = 1024 };
 static const double TIME_SHARE = 0.25;
 static const double COARSE_NOISE = 0.1;
 static const double FINE_NOISE = 0.02;
+// A view whose smallest picture would take so many times its share of the time gets none.
+static const double PATIENCE = 6;
 // A path of a picture carries four wavelengths: what it costs against one of a value.
 static const double PATH_COST = 1.5;
 
@@ -172,8 +174,10 @@ struct plan {
     double pixel_paths;
 };
 
-// The largest picture whose pixels are not too noisy in the time that there is for it.
-static struct plan choose_plan(const struct validate_case *c, double time_s)
+// The largest picture whose pixels are not too noisy in the time that there is for it; no paths when
+// even the smallest takes far too long, unless the user has as much time as it takes.
+static struct plan choose_plan(const struct validate *v, const struct validate_case *c,
+                               double time_s)
 {
     const double paths = time_s / (PATH_COST * validate_path_cost_s(c));
     const double noise = path_noise(c);
@@ -185,6 +189,10 @@ static struct plan choose_plan(const struct validate_case *c, double time_s)
         if (plan.pixel_paths >= LEAST_PATHS && noise / sqrt(plan.pixel_paths) <= COARSE_NOISE) {
             break;
         }
+    }
+    if (v->paths == 0 && PATIENCE * plan.pixel_paths < LEAST_PATHS) {
+        plan.pixel_paths = 0;
+        return plan;
     }
     const double enough = fmin(pow(noise / FINE_NOISE, 2), MOST_PATHS);
     plan.pixel_paths = fmax(fmin(plan.pixel_paths, enough), LEAST_PATHS);
@@ -262,11 +270,14 @@ static trl_result trace_case(struct gallery *g, int index, double time_s)
 {
     struct validate_case *c = &g->scene->cases[index];
     const trl_view view = exposed_view(g, index);
-    const struct plan plan = choose_plan(c, time_s);
+    const struct plan plan = choose_plan(g->v, c, time_s);
     c->traced_width = plan.size.width;
     c->traced_pixel_paths = plan.pixel_paths;
     c->pitch_rad = view.pitch_rad;
     c->vertical_fov_rad = view.vertical_fov_rad;
+    if (plan.pixel_paths == 0) {
+        return TRL_OK;
+    }
     struct traced traced;
     trl_result result = trace_view(g, &view, &plan, &traced);
     if (result == TRL_OK) {

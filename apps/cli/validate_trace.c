@@ -15,6 +15,7 @@
 enum { PROBE_PATHS = 128, QUICK_PROBE_PATHS = 64 };
 // A round gives a value at most so many times the paths that its noise is known from.
 static const double GROWTH = 16;
+static const double PIECE_SHARE = 0.005; // of the time, for one call
 // What is aimed at is a little more than needed: noise is known only roughly.
 static const double RESERVE = 1.1;
 // Sun elevation from which the mean of a view is of first interest, and the share of the time that
@@ -203,6 +204,23 @@ static struct plan *find_cheapest(struct plans *plans, bool is_for_day)
     return found;
 }
 
+// Paths for one value, in pieces that are short against the time of the run: what its paths cost is
+// known only in the mean of the view, and other work may slow them down.
+static enum exit_status follow_value(struct validate *v, struct plan *plan, int index, double paths)
+{
+    enum exit_status status = EXIT_OK;
+    while (status == EXIT_OK && paths >= 2 && validate_spent_s(v) < v->budget_s) {
+        const double cost_s = validate_path_cost_s(plan->c);
+        const double piece = fmax(2, PIECE_SHARE * v->budget_s / cost_s);
+        const struct batch batch = {index, 1, fmin(paths, piece)};
+        const double begin = validate_spent_s(v) / v->budget_s;
+        tell(v, plan, begin, begin + batch.paths * cost_s / v->budget_s);
+        status = trace(v, plan, &batch);
+        paths -= floor(batch.paths);
+    }
+    return status;
+}
+
 // One round of paths toward the plan's aim, in the time that is left.
 static enum exit_status follow(struct validate *v, struct plan *plan)
 {
@@ -211,13 +229,7 @@ static enum exit_status follow(struct validate *v, struct plan *plan)
     enum exit_status status = EXIT_OK;
     for (int i = 0; status == EXIT_OK && i < plan->c->count; i++) {
         const double most = GROWTH * plan->c->paths[i];
-        const struct batch batch = {i, 1, fmin(share * plan->more[i], most)};
-        if (batch.paths >= 2 && validate_spent_s(v) < v->budget_s) {
-            const double begin = validate_spent_s(v) / v->budget_s;
-            const double step_s = batch.paths * validate_path_cost_s(plan->c);
-            tell(v, plan, begin, begin + step_s / v->budget_s);
-            status = trace(v, plan, &batch);
-        }
+        status = follow_value(v, plan, i, fmin(share * plan->more[i], most));
     }
     return status;
 }

@@ -161,7 +161,7 @@ static void noise_that_is_not_known_convicts_nobody(void **state)
     const struct judgement j = judge_sample(&s);
     assert_int_equal(j.known, COUNT - 1);
     assert_int_equal(j.verdict, VERDICT_NOISY);
-    s.error[5] = 0.04 * s.reference[5];
+    s.error[5] = 0.019 * s.reference[5];
     assert_int_equal(judge_sample(&s).verdict, VERDICT_BAD);
 }
 
