@@ -21,7 +21,7 @@ enum { PICTURE_SAMPLES = 2, LEAST_PATHS = 32, MOST_PATHS = 1024 };
 // Share of the time that is left for traced pictures; relative noise of a pixel at which more
 // pixels are better than more paths, and below which neither is needed.
 static const double TIME_SHARE = 0.25;
-static const double COARSE_NOISE = 0.1;
+static const double COARSE_NOISE = 0.3;
 static const double FINE_NOISE = 0.02;
 // A view whose smallest picture would take so many times its share of the time gets none.
 static const double PATIENCE = 6;
@@ -174,8 +174,8 @@ struct plan {
     double pixel_paths;
 };
 
-// The largest picture whose pixels are not too noisy in the time that there is for it; no paths when
-// even the smallest takes far too long, unless the user has as much time as it takes.
+// The largest picture whose pixels are not too noisy in the time that there is for it. No paths
+// when even the smallest takes far too long, unless the user has as much time as it takes.
 static struct plan choose_plan(const struct validate *v, const struct validate_case *c,
                                double time_s)
 {
