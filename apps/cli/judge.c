@@ -158,6 +158,11 @@ struct judgement judge(const struct judge_values *values)
     struct judgement out = {.verdict = VERDICT_NOISY};
     judge_values_alone(values, &out);
     judge_mean(values, &out);
+    // Where most values are noisy, a quiet one has not yet met the rare paths that carry its light.
+    if (out.noise > JUDGE_KNOWN_NOISE) {
+        out.known = 0;
+        out.largest = out.mean_low = 0;
+    }
     const double signed_high = fabs(out.signed_mean) + CLAIM_SIGMAS * out.signed_noise;
     if (out.mean_low > JUDGE_MEAN_BOUND || out.largest > JUDGE_LARGEST_BOUND) {
         out.verdict = VERDICT_BAD;

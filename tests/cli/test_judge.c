@@ -163,6 +163,11 @@ static void noise_that_is_not_known_convicts_nobody(void **state)
     assert_int_equal(j.verdict, VERDICT_NOISY);
     s.error[5] = 0.019 * s.reference[5];
     assert_int_equal(judge_sample(&s).verdict, VERDICT_BAD);
+    // Nor by a quiet value among noisy ones.
+    for (int i = 0; i < COUNT; i++) {
+        s.error[i] = (i == 5 ? 0.019 : 0.2) * s.reference[i];
+    }
+    assert_int_equal(judge_sample(&s).verdict, VERDICT_NOISY);
 }
 
 // Noise of 1 % a value hides single errors of 2 %; that of their mean is a quarter.
