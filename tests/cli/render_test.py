@@ -122,7 +122,7 @@ class Traced(ProgramTest):
             return sum(sum(row) for row in rows) / sum(len(row) for row in rows)
 
         means = []
-        for orders in ["1", "2", "all"]:
+        for orders in ["all"] if IS_SLOW else ["1", "2", "all"]:
             common = ["--ev100", "10", "--orders", orders]
             self.expect_success(*self.words[:-1], "128", *common, "-o", "a.png")
             self.expect_success("render", self.scene, "--size", "12x8", *common, "-o", "b.png")
@@ -131,7 +131,8 @@ class Traced(ProgramTest):
             # Steps of 255: pixels of the horizon are drawn as one or the other, but traced as both; that makes 1.8.
             means.append(mean(read_png(self.work / "b.png")[2]))
             self.assertAlmostEqual(mean(traced), means[-1], delta=3)
-        self.assertLess(means[0] + 1, means[1])
+        if not IS_SLOW:
+            self.assertLess(means[0] + 1, means[1])
 
     def test_terrain(self):
         self.expect_success(*self.words, "-o", "plain.exr")
@@ -261,7 +262,7 @@ class Eclipses(ProgramTest):
             ({"star": {"corona": -1}}, ["star.corona", "is -1"]),
         ]
         for changes, mentions in cases:
-            self.expect_failure(1, ["render", self.write_eclipse(**changes)], mentions)
+            self.expect_failure(1, ["render", self.write_eclipse(**changes), "-q"], mentions)
 
     def test_odd_shadows(self):
         day = self.draw(body={"radius_m": 1})
@@ -270,6 +271,8 @@ class Eclipses(ProgramTest):
         # Everything is dark; just clear of the air; a star as wide as the sky; a point.
         self.assertLess(self.draw(body={"radius_m": 1e8, "distance_m": 2e8}), 1)
         self.assertLess(self.draw(body={"distance_m": 8168401}), 1)
+        if IS_SLOW:  # what follows solves twice more
+            return
         self.assertGreater(self.draw(star={"angular_radius_deg": 80}), 200)
         self.assertLess(self.draw(star={"angular_radius_deg": 0}), 20)
 
