@@ -97,11 +97,11 @@ TRL_MUST_USE trl_result phase_table_init(const trl_context *ctx, const double *a
 // Can this wavelength be computed? Tables and formulas are checked where eyes see when a scene is
 // read; a wavelength far from there may still give an albedo above 1 or a coefficient that is
 // absurd. TRL_ERROR_INVALID, logged, when a value is not finite or out of range.
-// Mean altitude of what scatters, m, at 550 nm; 0 where nothing does.
-double medium_scattering_height(const struct medium *medium);
-
 TRL_MUST_USE trl_result medium_check(const trl_context *ctx, const struct medium *medium,
                                      double nm);
+
+// Mean altitude of what scatters, m, at 550 nm; 0 where nothing does.
+double medium_scattering_height(const struct medium *medium);
 
 // Free everything they own; a zeroed one is a no-op.
 void constituent_finish(const trl_context *ctx, struct constituent *constituent);

@@ -6,24 +6,24 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_DEGREE = 3, SUNS_AT_ONCE = 4 };
+// Harmonics up to l = DEGREE: the solver keeps at least these.
+enum { DEGREE = 2, SUNS_AT_ONCE = 4 };
 
 // Where nothing absorbs, a plane loses no light and the matrix is singular; the sphere that it
 // stands for does. This much is kept at each scattering.
 static const double KEPT = 0.999;
 
 // One matrix 1 - K for each azimuth order m, as its factors L (unit diagonal) and U. Unknowns are
-// the moments l = m .. degree of level 0, then those of level 1, ...; with m = 0 the last one is
+// the moments l = m .. DEGREE of level 0, then those of level 1, ...; with m = 0 the last one is
 // the irradiance of the ground.
 struct plane {
     const trl_context *ctx;
     const struct solution *solution;
     const struct solver_settings *settings;
-    int degree;
     int levels;
-    int size[MAX_DEGREE + 1];
-    lanes *matrix[MAX_DEGREE + 1];  // [row][column]
-    lanes *inverse[MAX_DEGREE + 1]; // [row] of the diagonal of U
+    int size[DEGREE + 1];
+    lanes *matrix[DEGREE + 1];  // [row][column]
+    lanes *inverse[DEGREE + 1]; // [row] of the diagonal of U
     int worker_count;
     struct ray *rays; // [worker_count]
     lanes *rows;      // [worker_count][row_size]
@@ -31,9 +31,9 @@ struct plane {
     lanes *vectors; // [worker_count][size[0]][SUNS_AT_ONCE]
 };
 
-static int unknown(const struct plane *p, int level, int l, int m)
+static int unknown(int level, int l, int m)
 {
-    return level * (p->degree + 1 - m) + l - m;
+    return level * (DEGREE + 1 - m) + l - m;
 }
 
 // row[m][unknown] = what each unknown sends along the ray, in units of its cos(m phi).
@@ -41,22 +41,22 @@ LANES_INLINE void fill_ray_rows(const struct plane *p, const struct ray *ray, la
 {
     const struct optics *optics = p->solution->optics;
     const struct moments *moments = &p->solution->moments;
-    for (int m = 0; m <= p->degree; m++) {
+    for (int m = 0; m <= DEGREE; m++) {
         memset(row[m], 0, (size_t)p->size[m] * sizeof(lanes));
     }
-    double harmonic[(MAX_DEGREE + 1) * (MAX_DEGREE + 2) / 2];
+    double harmonic[(DEGREE + 1) * (DEGREE + 2) / 2];
     for (int k = 0; k < ray->node_count; k++) {
         const struct ray_node *node = &ray->node[k];
         const lanes attenuation = optics_attenuation(optics, node->column_m);
         const struct moments_levels at = moments_levels_at(moments, node->shell);
-        harmonic_values(p->degree, node->mu, harmonic);
-        for (int l = 0; l <= p->degree; l++) {
+        harmonic_values(DEGREE, node->mu, harmonic);
+        for (int l = 0; l <= DEGREE; l++) {
             const lanes source =
                 optics_source(optics, node->density, l) * attenuation * (float)node->weight_m;
             for (int m = 0; m <= l; m++) {
                 const lanes sent = source * (float)harmonic[harmonic_index(l, m)];
                 for (int t = 0; t < MOMENTS_TAPS; t++) {
-                    row[m][unknown(p, at.first + t, l, m)] += sent * at.weight[t];
+                    row[m][unknown(at.first + t, l, m)] += sent * at.weight[t];
                 }
             }
         }
@@ -80,25 +80,25 @@ LANES_CLONES static void fill_level(const struct plane *p, int level, int worker
     const struct optics *optics = p->solution->optics;
     const struct solver_settings *set = p->settings;
     const double radius_m = moments_level_radius(&p->solution->moments, level);
-    lanes *row[MAX_DEGREE + 1];
+    lanes *row[DEGREE + 1];
     row[0] = p->rows + (size_t)worker * p->row_size;
-    for (int m = 1; m <= p->degree; m++) {
+    for (int m = 1; m <= DEGREE; m++) {
         row[m] = row[m - 1] + p->size[m - 1];
     }
     struct directions directions;
     directions_init(&directions, optics, radius_m, set->zeniths, set->azimuths);
-    double harmonic[(MAX_DEGREE + 1) * (MAX_DEGREE + 2) / 2];
+    double harmonic[(DEGREE + 1) * (DEGREE + 2) / 2];
     for (int q = 0; q < directions.zeniths; q++) {
         const struct ray_desc desc = sweep_ray(set, radius_m, directions.mu[q]);
         struct ray *ray = &p->rays[worker];
         ray_init(ray, optics, p->solution->rules, &desc);
         fill_ray_rows(p, ray, row);
-        harmonic_values(p->degree, desc.mu, harmonic);
-        for (int m = 0; m <= p->degree; m++) {
+        harmonic_values(DEGREE, desc.mu, harmonic);
+        for (int m = 0; m <= DEGREE; m++) {
             // The integral of cos(m phi)^2.
             const double weight = KEPT * directions.weight[q] * (m == 0 ? 2 * M_PI : M_PI);
-            for (int l = m; l <= p->degree; l++) {
-                subtract(p->matrix[m] + (size_t)unknown(p, level, l, m) * p->size[m], row[m],
+            for (int l = m; l <= DEGREE; l++) {
+                subtract(p->matrix[m] + (size_t)unknown(level, l, m) * p->size[m], row[m],
                          (float)(weight * harmonic[harmonic_index(l, m)]), p->size[m]);
             }
         }
@@ -137,7 +137,7 @@ static void factorise(struct plane *p, int m)
 
 static void fill(struct plane *p)
 {
-    for (int m = 0; m <= p->degree; m++) {
+    for (int m = 0; m <= DEGREE; m++) {
         const size_t n = (size_t)p->size[m];
         for (size_t k = 0; k < n; k++) {
             p->matrix[m][k * n + k] = lanes_set(1);
@@ -149,7 +149,7 @@ static void fill(struct plane *p)
         fill_level(p, level, lanes_thread());
         lanes_restore(state);
     }
-    for (int m = 0; m <= p->degree; m++) {
+    for (int m = 0; m <= DEGREE; m++) {
         factorise(p, m);
     }
 }
@@ -157,8 +157,8 @@ static void fill(struct plane *p)
 static trl_result reserve(struct plane *p)
 {
     bool has_memory = true;
-    for (int m = 0; m <= p->degree; m++) {
-        p->size[m] = p->levels * (p->degree + 1 - m) + (m == 0);
+    for (int m = 0; m <= DEGREE; m++) {
+        p->size[m] = p->levels * (DEGREE + 1 - m) + (m == 0);
         p->row_size += (size_t)p->size[m];
         p->matrix[m] = mem_alloc(p->ctx, (size_t)p->size[m] * (size_t)p->size[m], sizeof(lanes));
         p->inverse[m] = mem_alloc(p->ctx, (size_t)p->size[m], sizeof(lanes));
@@ -173,18 +173,14 @@ static trl_result reserve(struct plane *p)
 }
 
 trl_result plane_create(const trl_context *ctx, const struct solution *solution,
-                        const struct solver_settings *settings, int degree, struct plane **out)
+                        const struct solver_settings *settings, struct plane **out)
 {
     *out = mem_alloc(ctx, 1, sizeof **out);
     if (!*out) {
         return TRL_ERROR_MEMORY;
     }
-    const int highest = settings->lmax < MAX_DEGREE ? settings->lmax : MAX_DEGREE;
-    **out = (struct plane){.ctx = ctx,
-                           .solution = solution,
-                           .settings = settings,
-                           .degree = degree < highest ? degree : highest,
-                           .levels = settings->levels};
+    **out = (struct plane){
+        .ctx = ctx, .solution = solution, .settings = settings, .levels = settings->levels};
     const trl_result result = reserve(*out);
     if (result != TRL_OK) {
         plane_destroy(ctx, out);
@@ -200,7 +196,7 @@ void plane_destroy(const trl_context *ctx, struct plane **plane)
     if (!p) {
         return;
     }
-    for (int m = 0; m <= MAX_DEGREE; m++) {
+    for (int m = 0; m <= DEGREE; m++) {
         mem_free(ctx, p->matrix[m]);
         mem_free(ctx, p->inverse[m]);
     }
@@ -252,8 +248,8 @@ static void exchange(const struct plane *p, int m, int sun, struct moments *x, l
         }
         for (int level = 0; level < p->levels; level++) {
             lanes *a = x->radiance + ((size_t)level * x->suns + sun + s) * harmonics;
-            for (int l = m; l <= p->degree; l++) {
-                lanes *v = &vector[unknown(p, level, l, m) * SUNS_AT_ONCE + s];
+            for (int l = m; l <= DEGREE; l++) {
+                lanes *v = &vector[unknown(level, l, m) * SUNS_AT_ONCE + s];
                 if (is_back) {
                     a[harmonic_index(l, m)] = *v;
                 } else {
@@ -278,7 +274,7 @@ void plane_solve(const struct plane *p, struct moments *x)
     for (int sun = 0; sun < x->suns; sun += SUNS_AT_ONCE) {
         const unsigned state = lanes_flush_denormals();
         lanes *vector = p->vectors + (size_t)lanes_thread() * (size_t)p->size[0] * SUNS_AT_ONCE;
-        for (int m = 0; m <= p->degree; m++) {
+        for (int m = 0; m <= DEGREE; m++) {
             exchange(p, m, sun, x, vector, false);
             substitute(p, m, vector);
             exchange(p, m, sun, x, vector, true);

@@ -10,10 +10,9 @@
 #include "scatter/sweep.h"
 
 struct plane;
-// Along the rays of `settings`, for harmonics up to `degree`.
+// Along the rays of `settings`, whose lmax is 2 at least.
 TRL_MUST_USE trl_result plane_create(const trl_context *ctx, const struct solution *solution,
-                                     const struct solver_settings *settings, int degree,
-                                     struct plane **out);
+                                     const struct solver_settings *settings, struct plane **out);
 void plane_destroy(const trl_context *ctx, struct plane **plane);
 
 // x = (1 - K)^-1 x for the harmonics of the plane; the others stay.

@@ -159,14 +159,14 @@ static double forward_light(const struct query *query, const struct query_view *
 static const struct ray_node *find_middle(const struct query *query, const struct query_view *view)
 {
     const struct ray *ray = &query->ray;
-    double whole = 0;
-    for (int k = 0; k < ray->node_count; k++) {
-        whole += forward_light(query, view, &ray->node[k]);
-    }
+    double so_far[RAY_MAX_NODES];
     double sum = 0;
-    for (int k = 0; k < ray->node_count && whole > 0; k++) {
+    for (int k = 0; k < ray->node_count; k++) {
         sum += forward_light(query, view, &ray->node[k]);
-        if (sum >= 0.5 * whole) {
+        so_far[k] = sum;
+    }
+    for (int k = 0; k < ray->node_count && sum > 0; k++) {
+        if (so_far[k] >= 0.5 * sum) {
             return &ray->node[k];
         }
     }

@@ -23,7 +23,7 @@ struct solver_settings solver_settings_choose(const struct optics *optics,
                                     .first_refinement = 2,
                                     .nodes_per_shell = is_precise ? 10 : 8,
                                     .first_nodes_per_shell = is_precise ? 128 : 64,
-                                    .plane_degree = depth > 1 ? 2 : -1,
+                                    .has_plane = depth > 1,
                                     .max_orders = 200,
                                     .tolerance = is_precise ? 2e-4 : 1e-3};
 }
@@ -56,8 +56,8 @@ static trl_result solve_all(const trl_context *ctx, struct sweep *sweep,
 {
     struct plane *plane = NULL;
     trl_result result = sweep_order(sweep, NULL, 0, &out->moments);
-    if (result == TRL_OK && settings->plane_degree >= 0) {
-        result = plane_create(ctx, out, settings, settings->plane_degree, &plane);
+    if (result == TRL_OK && settings->has_plane) {
+        result = plane_create(ctx, out, settings, &plane);
     }
     if (result == TRL_OK) {
         result = krylov_solve(ctx, sweep, plane, settings, &out->moments, &out->orders);

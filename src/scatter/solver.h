@@ -21,7 +21,7 @@ struct solver_settings {
     double nodes_per_shell;
     double first_nodes_per_shell; // of the first order, which has the kink of the planet's shadow
     int orders;                   // exactly these, and no tail; 0: until the tolerance is met
-    int plane_degree;             // of the preconditioner (plane.h); -1: none
+    bool has_plane;               // as preconditioner, see plane.h
     int max_orders;               // steps of the iteration at most
     double tolerance;             // what is left of the iteration's residual
 };

@@ -30,6 +30,19 @@ static double row_mu(struct sunlight_row row, double coordinate)
     return row.lowest_mu + SUNLIGHT_SOFT * expm1(coordinate / row.scale);
 }
 
+// Where a coordinate in [0, 1] lies between nodes.
+struct cell {
+    int index;
+    double part;
+};
+
+static struct cell find_cell(double coordinate, int count)
+{
+    const double position = fmin(coordinate, 1) * (count - 1);
+    const int index = position < count - 2 ? (int)position : count - 2;
+    return (struct cell){index, position - index};
+}
+
 // Columns to the top of the medium over (level, coordinate) of a point star, one plane per
 // constituent.
 struct columns {
@@ -76,14 +89,12 @@ static void fill_column_level(const struct columns *columns, const struct ray_ru
 static lanes transmittance_of_point(const struct columns *columns, int level,
                                     struct sunlight_row row, double mu)
 {
-    const double position = fmin(row_coordinate(row, mu), 1) * (COLUMNS - 1);
-    const int below = position < COLUMNS - 2 ? (int)position : COLUMNS - 2;
-    const double part = position - below;
-    const double *a = columns_at(columns, level, below);
-    const double *b = columns_at(columns, level, below + 1);
+    const struct cell cell = find_cell(row_coordinate(row, mu), COLUMNS);
+    const double *a = columns_at(columns, level, cell.index);
+    const double *b = columns_at(columns, level, cell.index + 1);
     lanes depth = {0};
     for (int i = 0; i < columns->optics->constituent_count; i++) {
-        depth += columns->optics->extinction_per_m[i] * (float)(a[i] + part * (b[i] - a[i]));
+        depth += columns->optics->extinction_per_m[i] * (float)(a[i] + cell.part * (b[i] - a[i]));
     }
     return lanes_exp_negative(-depth);
 }
@@ -192,18 +203,6 @@ void sunlight_finish(const trl_context *ctx, struct sunlight *sun)
     *sun = (struct sunlight){0};
 }
 
-struct cell {
-    int index;
-    float part;
-};
-
-static struct cell find_cell(double coordinate, int count)
-{
-    const double position = fmin(coordinate, 1) * (count - 1);
-    const int index = position < count - 2 ? (int)position : count - 2;
-    return (struct cell){index, (float)(position - index)};
-}
-
 // Straight between columns, by logarithms between levels, as transport.c does.
 void sunlight_at(const struct sunlight *sun, double radius_m, double mu, lanes *transmittance)
 {
@@ -215,9 +214,10 @@ void sunlight_at(const struct sunlight *sun, double radius_m, double mu, lanes *
         find_cell(optics_shell(optics, radius_m - optics->ground_radius_m), sun->levels);
     const lanes *below = sun->log_transmittance + (size_t)level.index * COLUMNS + column.index;
     const lanes *above = below + COLUMNS;
-    const lanes left = lanes_exp_negative(below[0] + (above[0] - below[0]) * level.part);
-    const lanes right = lanes_exp_negative(below[1] + (above[1] - below[1]) * level.part);
-    *transmittance = left + (right - left) * column.part;
+    const float part = (float)level.part;
+    const lanes left = lanes_exp_negative(below[0] + (above[0] - below[0]) * part);
+    const lanes right = lanes_exp_negative(below[1] + (above[1] - below[1]) * part);
+    *transmittance = left + (right - left) * (float)column.part;
 }
 
 void sunlight_ground_at(const struct sunlight *sun, double mu, lanes *irradiance)
@@ -226,5 +226,5 @@ void sunlight_ground_at(const struct sunlight *sun, double mu, lanes *irradiance
     const struct sunlight_row row = sunlight_row_at(radius_m, radius_m, sun->disc_rad);
     const struct cell column = find_cell(row_coordinate(row, mu), COLUMNS);
     const lanes *at = sun->ground_irradiance + column.index;
-    *irradiance = at[0] + (at[1] - at[0]) * column.part;
+    *irradiance = at[0] + (at[1] - at[0]) * (float)column.part;
 }

@@ -17,7 +17,7 @@ enum {
     UMBRA_US = 40,        // over (-1, 1) of umbra_coordinate
     UMBRA_VS = 20,        // over [0, 1): both sides are alike
     UMBRA_ALTITUDES = 12, // top (k / (UMBRA_ALTITUDES - 1))^2
-    UMBRA_RINGS = 19,     // of horizontal distance: 0, then doubling
+    UMBRA_RINGS = 19,     // of horizontal distance: 0, then by the root of 2
     UMBRA_PLACES = UMBRA_VS * UMBRA_US
 };
 

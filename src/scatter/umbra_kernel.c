@@ -39,36 +39,26 @@ static struct layer find_layer(const struct umbra_kernel *kernel, double altitud
     return layer;
 }
 
-// Of a place among nodes: the lower one's index, and how far it is to the next.
-struct between {
-    int index;
-    float part;
-};
-
-static struct between find_between(double coordinate, int count)
+// The node that is nearest to a coordinate.
+static int nearest_node(double coordinate, int count)
 {
     const double x = fmin(fmax(coordinate, 0), count - 1);
     const int index = (int)fmin(floor(x), count - 2);
-    return (struct between){index, (float)(x - index)};
+    return index + ((float)(x - index) > 0.5f);
 }
 
-static struct between find_ring(const struct umbra_kernel *kernel, double distance_m)
+static int find_ring(const struct umbra_kernel *kernel, double distance_m)
 {
     const double nearest_m = kernel->ring_m[1];
-    return find_between(distance_m < nearest_m ? distance_m / nearest_m
+    return nearest_node(distance_m < nearest_m ? distance_m / nearest_m
                                                : 1 + 2 * log2(distance_m / nearest_m),
                         UMBRA_RINGS);
 }
 
-static struct between find_altitude(const struct umbra_kernel *kernel, double altitude_m)
+static int find_altitude(const struct umbra_kernel *kernel, double altitude_m)
 {
     const double top_m = kernel->altitude_m[UMBRA_ALTITUDES - 1];
-    return find_between(sqrt(fmax(altitude_m, 0) / top_m) * (UMBRA_ALTITUDES - 1), UMBRA_ALTITUDES);
-}
-
-static void add_ring(umbra_bands *rings, struct between ring, umbra_bands weight)
-{
-    rings[ring.index + (ring.part > 0.5f)] += weight;
+    return nearest_node(sqrt(fmax(altitude_m, 0) / top_m) * (UMBRA_ALTITUDES - 1), UMBRA_ALTITUDES);
 }
 
 // A direction: cosine of its zenith angle, share of the sphere around.
@@ -118,9 +108,7 @@ static void add_direction(const struct umbra_kernel *kernel, double altitude_m,
         }
         weight *= (float)direction.share;
         depth += layer.extinction * (float)step_m;
-        const struct between level = find_altitude(kernel, place.altitude_m);
-        const struct between ring = find_ring(kernel, place.ring_m);
-        add_ring(air[level.index + (level.part > 0.5f)], ring, weight);
+        air[find_altitude(kernel, place.altitude_m)][find_ring(kernel, place.ring_m)] += weight;
     }
     if (hits_ground && ground) {
         umbra_bands weight;
@@ -128,7 +116,7 @@ static void add_direction(const struct umbra_kernel *kernel, double altitude_m,
             weight[k] = expf(-depth[k]) * (float)direction.share;
         }
         const struct place place = find_place(ground_m, eye_m, direction.mu, end_m);
-        add_ring(ground, find_ring(kernel, place.ring_m), weight);
+        ground[find_ring(kernel, place.ring_m)] += weight;
     }
 }
 
