@@ -70,6 +70,11 @@ trl_result frame_set_sky_model(struct frame *frame, trl_sky_model model)
     return result;
 }
 
+static double find_glow_m(const struct medium *medium)
+{
+    return GLOW_HEIGHTS * medium_scattering_height(medium);
+}
+
 // The models that were made go over one by one; one that cannot keeps its tables.
 trl_result frame_change_atmosphere(struct frame *frame, const struct medium *medium)
 {
@@ -80,6 +85,7 @@ trl_result frame_change_atmosphere(struct frame *frame, const struct medium *med
     }
     struct medium old = frame->medium;
     frame->medium = changed;
+    frame->glow_m = find_glow_m(&changed);
     const struct sky_desc desc = describe_sky(frame);
     for (int m = 0; m < SKY_MODELS && result == TRL_OK; m++) {
         if (frame->skies[m].self) {
@@ -131,6 +137,7 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
     describe_bodies(out);
     trl_result result = medium_copy(desc->ctx, &desc->scene->medium, &out->medium);
     if (result == TRL_OK) {
+        out->glow_m = find_glow_m(&out->medium);
         result = open_gpu(desc, &out->gpu);
     }
     if (result == TRL_OK) {
@@ -291,8 +298,7 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
                                             .radiance = &frame->radiance,
                                             .ground_radius_m = frame->medium.ground_radius_m,
                                             .top_radius_m = frame->medium.top_radius_m,
-                                            .glow_m = GLOW_HEIGHTS *
-                                                      medium_scattering_height(&frame->medium)};
+                                            .glow_m = frame->glow_m};
         frame_clock_part(&frame->clock, "edges");
         result = edges_draw(&frame->edges, &source);
     }

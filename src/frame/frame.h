@@ -42,6 +42,7 @@ struct frame {
     const struct trl_scene *scene;
     struct gpu *gpu;
     struct ground ground;
+    double glow_m;                // height of the bright air at the horizon
     struct medium medium;         // the scene's, with the atmosphere that was changed to; a copy
     struct sky skies[SKY_MODELS]; // by trl_sky_model; made when first asked for
     struct space space;

@@ -78,17 +78,6 @@ static trl_result update_light(struct bodies *bodies, struct body *body)
     return result;
 }
 
-// An axis as seen from the picture: its component in a ray is the dot product with (1, x, y), (x,
-// y) in [-1, 1]^2. In double, since discs may be small.
-static void set_axis(struct gpu_program *program, const char *name, const struct camera *camera,
-                     struct vec3 axis)
-{
-    sky_set_vec3(program, name,
-                 (struct vec3){vec3_dot(axis, camera->forward),
-                               vec3_dot(axis, camera->right) * camera->tan_half_fov_x,
-                               vec3_dot(axis, camera->up) * camera->tan_half_fov_y});
-}
-
 // Toward the star, at a right angle to the line of sight; any such direction at full and new.
 static struct vec3 find_lit_side(const struct camera *camera, const struct body_sight *sight)
 {
@@ -113,10 +102,10 @@ static void set_view(struct bodies *bodies, const struct body *body, const struc
                           body->law == BODY_LAMBERT};
     const double pixel_radii = 2 * camera->tan_half_fov_y / view->target->height / sight->sine;
     const int samples = (int)fmax(ceil(RADIUS_SAMPLES * pixel_radii), PIXEL_SAMPLES);
-    set_axis(program, "u_lit", camera, lit);
-    set_axis(program, "u_side", camera, vec3_cross(sight->direction, lit));
-    set_axis(program, "u_centre", camera, sight->direction);
-    set_axis(program, "u_zenith", camera, vec3_normalize(camera->position_m));
+    sky_set_axis(program, "u_lit", camera, lit);
+    sky_set_axis(program, "u_side", camera, vec3_cross(sight->direction, lit));
+    sky_set_axis(program, "u_centre", camera, sight->direction);
+    sky_set_axis(program, "u_zenith", camera, vec3_normalize(camera->position_m));
     gpu_program_set_vec2(program, "u_pixel", pixel);
     gpu_program_set_int(program, "u_samples", samples);
     sky_set_vec4(program, "u_body", sight->sine, pixel_radii / samples, sin(sight->phase_angle_rad),

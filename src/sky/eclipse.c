@@ -87,18 +87,6 @@ void sky_eclipse_finish(struct sky_eclipse *eclipse)
     *eclipse = (struct sky_eclipse){0};
 }
 
-static trl_result make_texture(struct gpu *gpu, uint32_t altitudes, struct gpu_texture *out)
-{
-    struct gpu_texture_desc desc = gpu_texture_desc_default();
-    desc.label = "umbra";
-    desc.shape = altitudes > 1 ? GPU_SHAPE_3D : GPU_SHAPE_2D;
-    desc.format = GPU_FORMAT_RGBA32F;
-    desc.width = UMBRA_US;
-    desc.height = UMBRA_VS;
-    desc.depth = altitudes;
-    return gpu_texture_init(gpu, &desc, out);
-}
-
 static trl_result begin(const struct sky_pixels *pixels, const struct atmosphere *atmosphere,
                         struct sky_eclipse *eclipse)
 {
@@ -110,8 +98,11 @@ static trl_result begin(const struct sky_pixels *pixels, const struct atmosphere
         return TRL_ERROR_MEMORY;
     }
     umbra_kernel_init(atmosphere->optics, atmosphere->bands.lane, eclipse->kernel);
-    const trl_result result = make_texture(eclipse->gpu, UMBRA_ALTITUDES, &eclipse->air);
-    return result == TRL_OK ? make_texture(eclipse->gpu, 1, &eclipse->ground) : result;
+    const uint32_t air[3] = {UMBRA_US, UMBRA_VS, UMBRA_ALTITUDES};
+    const uint32_t ground[3] = {UMBRA_US, UMBRA_VS, 1};
+    const trl_result result = sky_make_map(eclipse->gpu, "umbra", air, NULL, &eclipse->air);
+    return result == TRL_OK ? sky_make_map(eclipse->gpu, "umbra", ground, NULL, &eclipse->ground)
+                            : result;
 }
 
 static trl_result upload(struct sky_eclipse *eclipse)

@@ -235,18 +235,14 @@ static void set_colours(const struct moonlight *moonlight, struct gpu_program *p
     const struct vec3 up = vec3_normalize(view->camera->position_m);
     struct bands bands = a->bands;
     double factors[3];
-    float rgb_from_xyz[12] = {0};
     find_factors(a, &reflected, angle_between(up, sight->direction), factors);
     for (int k = 0; k < 3; k++) {
         for (int r = 0; r < BAND_COUNT; r++) {
             bands.rgb_from_bands[k][r] *= (float)reflect(body, sight, bands.nm[r]);
         }
-        for (int i = 0; i < 3; i++) {
-            rgb_from_xyz[4 * k + i] = (float)(factors[k] * cie_rgb_from_xyz[k][i]);
-        }
     }
     sky_set_bands(program, &bands, a->optics, 0);
-    gpu_program_set_vec4s(program, "u_rgb_from_xyz", rgb_from_xyz, 3);
+    sky_set_primaries(program, factors);
     gpu_program_set_float(program, "u_shadowed", view->moon.is_main ? 1 : 0);
 }
 

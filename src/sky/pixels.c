@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "sky/pixels.h"
 
+#include "spectrum/cie.h"
+
 #include <math.h>
 
 trl_result sky_pixels_init(const struct sky_desc *desc, double disc_rad, struct sky_pixels *out)
@@ -80,6 +82,40 @@ void sky_set_bands(struct gpu_program *program, const struct bands *bands,
     sky_set_vec4(program, "u_ground_albedo", (double)(*albedo)[bands->lane[0]],
                  (double)(*albedo)[bands->lane[1]], (double)(*albedo)[bands->lane[2]],
                  (double)(*albedo)[bands->lane[3]]);
+}
+
+void sky_set_primaries(struct gpu_program *program, const double factors[3])
+{
+    float rgb_from_xyz[12] = {0};
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            rgb_from_xyz[4 * k + i] = (float)(factors[k] * cie_rgb_from_xyz[k][i]);
+        }
+    }
+    gpu_program_set_vec4s(program, "u_rgb_from_xyz", rgb_from_xyz, 3);
+}
+
+void sky_set_axis(struct gpu_program *program, const char *name, const struct camera *camera,
+                  struct vec3 axis)
+{
+    sky_set_vec3(program, name,
+                 (struct vec3){vec3_dot(axis, camera->forward),
+                               vec3_dot(axis, camera->right) * camera->tan_half_fov_x,
+                               vec3_dot(axis, camera->up) * camera->tan_half_fov_y});
+}
+
+trl_result sky_make_map(struct gpu *gpu, const char *label, const uint32_t size[3],
+                        const float *texels, struct gpu_texture *out)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = label;
+    desc.shape = size[2] > 1 ? GPU_SHAPE_3D : GPU_SHAPE_2D;
+    desc.format = GPU_FORMAT_RGBA32F;
+    desc.width = size[0];
+    desc.height = size[1];
+    desc.depth = size[2];
+    desc.data = texels;
+    return gpu_texture_init(gpu, &desc, out);
 }
 
 void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *program,

@@ -52,6 +52,9 @@ TRL_MUST_USE trl_result sky_pixels_draw(const struct sky_pixels *pixels,
 void sky_set_bands(struct gpu_program *program, const struct bands *bands,
                    const struct optics *optics, double lights_cd_m2);
 
+// Uniform u_rgb_from_xyz (rows): light in XYZ as linear sRGB, times a factor for each primary.
+void sky_set_primaries(struct gpu_program *program, const double factors[3]);
+
 // Sets the uniforms of ray.glsl, for programs that draw something else than a kind of pixels.
 void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *program,
                          const struct sky_view *view);
@@ -59,6 +62,15 @@ void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *pr
 // Pixels in which a disc of that angular radius may show; none: a width of 0.
 struct gpu_rect sky_find_disc(const struct camera *camera, const struct gpu_target *target,
                               struct vec3 direction, double radius_rad);
+
+// A direction as seen from the picture: its component in a ray is the dot product with (1, x, y),
+// (x, y) in [-1, 1]^2. In double, since discs may be small.
+void sky_set_axis(struct gpu_program *program, const char *name, const struct camera *camera,
+                  struct vec3 axis);
+
+// RGBA32F, 3D where it is deeper than 1. Texels may be NULL.
+TRL_MUST_USE trl_result sky_make_map(struct gpu *gpu, const char *label, const uint32_t size[3],
+                                     const float *texels, struct gpu_texture *out);
 
 void sky_set_vec3(struct gpu_program *program, const char *name, struct vec3 v);
 void sky_set_vec4(struct gpu_program *program, const char *name, double x, double y, double z,

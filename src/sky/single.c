@@ -35,20 +35,6 @@ struct single {
 static const char *const SCATTERED_NAMES[] = {"u_scattered0", "u_scattered1", "u_scattered2",
                                               "u_scattered3"};
 
-static trl_result make_texture(struct gpu *gpu, const char *label, const uint32_t size[3],
-                               const float *texels, struct gpu_texture *out)
-{
-    struct gpu_texture_desc desc = gpu_texture_desc_default();
-    desc.label = label;
-    desc.shape = size[2] > 1 ? GPU_SHAPE_3D : GPU_SHAPE_2D;
-    desc.format = GPU_FORMAT_RGBA32F;
-    desc.width = size[0];
-    desc.height = size[1];
-    desc.depth = size[2];
-    desc.data = texels;
-    return gpu_texture_init(gpu, &desc, out);
-}
-
 // Over the sine of half the angle, which spreads the forward peak.
 static trl_result make_phase(struct single *sky)
 {
@@ -63,7 +49,7 @@ static trl_result make_phase(struct single *sky)
         }
     }
     const uint32_t size[3] = {PHASE_SAMPLES, 1, 1};
-    const trl_result result = make_texture(sky->gpu, "phase", size, texels, &sky->phase);
+    const trl_result result = sky_make_map(sky->gpu, "phase", size, texels, &sky->phase);
     mem_free(sky->ctx, texels);
     return result;
 }
@@ -78,16 +64,16 @@ static trl_result make_maps(struct single *sky)
     trl_result result = TRL_OK;
     for (int c = 0; c < t->channels && result == TRL_OK; c++) {
         result =
-            make_texture(sky->gpu, "single scattering", all, t->scattered[c], &sky->scattered[c]);
+            sky_make_map(sky->gpu, "single scattering", all, t->scattered[c], &sky->scattered[c]);
     }
     if (result == TRL_OK) {
-        result = make_texture(sky->gpu, "optical depth", depth, t->depth, &sky->depth);
+        result = sky_make_map(sky->gpu, "optical depth", depth, t->depth, &sky->depth);
     }
     if (result == TRL_OK) {
-        result = make_texture(sky->gpu, "star light", light, t->light, &sky->light);
+        result = sky_make_map(sky->gpu, "star light", light, t->light, &sky->light);
     }
     if (result == TRL_OK) {
-        result = make_texture(sky->gpu, "medium", medium, t->medium, &sky->medium);
+        result = sky_make_map(sky->gpu, "medium", medium, t->medium, &sky->medium);
     }
     return result == TRL_OK ? make_phase(sky) : result;
 }

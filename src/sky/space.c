@@ -120,33 +120,29 @@ static trl_result draw_layer(struct space *space, struct gpu_program *program, e
     return gpu_draw_fullscreen(program, "sky background");
 }
 
-static trl_result draw_sky(struct space *space, const struct sky_view *view)
+static trl_result draw_sky(struct space *space, const struct sky_view *view,
+                           const struct airglow *airglow)
 {
     struct gpu_program *program = &space->background;
     const struct camera *camera = view->camera;
-    const struct airglow airglow = find_airglow(space);
-    const struct vec3 zenith = vec3_normalize(camera->position_m);
     const double even[3] = {1, 1, 1}, none[3] = {0, 0, 0};
     const float tan_half[2] = {(float)camera->tan_half_fov_x, (float)camera->tan_half_fov_y};
-    const float layer[2] = {(float)airglow.share, (float)airglow.layer};
+    const float layer[2] = {(float)airglow->share, (float)airglow->layer};
     set_vec3(program, "u_background", even, space->background_cd_m2);
-    set_vec3(program, "u_depth_rgb", airglow.share > 0 ? airglow.depth : none, 1);
+    set_vec3(program, "u_depth_rgb", airglow->share > 0 ? airglow->depth : none, 1);
     gpu_program_set_vec2(program, "u_airglow", layer);
     gpu_program_set_vec2(program, "u_tan", tan_half);
-    sky_set_vec3(program, "u_zenith",
-                 (struct vec3){vec3_dot(zenith, camera->forward),
-                               vec3_dot(zenith, camera->right) * camera->tan_half_fov_x,
-                               vec3_dot(zenith, camera->up) * camera->tan_half_fov_y});
+    sky_set_axis(program, "u_zenith", camera, vec3_normalize(camera->position_m));
     return draw_layer(space, program, GPU_DEPTH_NEARER, view);
 }
 
-static trl_result draw_ground(struct space *space, const struct sky_view *view)
+static trl_result draw_ground(struct space *space, const struct sky_view *view,
+                              const struct airglow *airglow)
 {
     struct gpu_program *program =
         sky_view_is_bare(view) ? &space->ground_bare : &space->ground_surface;
-    const struct airglow airglow = find_airglow(space);
     double mean[3];
-    airglow_mean(&airglow, mean);
+    airglow_mean(airglow, mean);
     set_vec3(program, "u_background", mean, space->background_cd_m2);
     gpu_program_set_vec3(program, "u_ground_albedo", space->ground_albedo);
     if (view->surface.albedo) {
@@ -161,8 +157,9 @@ static trl_result draw_background(struct space *space, const struct sky_view *vi
     if (!(space->background_cd_m2 > 0) || vec3_dot(zenith, view->camera->sun_direction) > DAY_MU) {
         return TRL_OK;
     }
-    const trl_result result = draw_sky(space, view);
-    return result == TRL_OK ? draw_ground(space, view) : result;
+    const struct airglow airglow = find_airglow(space);
+    const trl_result result = draw_sky(space, view, &airglow);
+    return result == TRL_OK ? draw_ground(space, view, &airglow) : result;
 }
 
 trl_result space_draw(struct space *space, const struct sky_view *view, double sidereal_rad)

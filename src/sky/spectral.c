@@ -260,18 +260,6 @@ static struct sky_moon spectral_find_moon(const void *self, const struct camera 
     return moonlight_find(&sky->moonlight, sky->maps.atmosphere, camera, highest_m);
 }
 
-// XYZ to the picture's primaries.
-static void set_xyz(struct gpu_program *program)
-{
-    float rgb_from_xyz[12] = {0};
-    for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < 3; i++) {
-            rgb_from_xyz[4 * k + i] = (float)cie_rgb_from_xyz[k][i];
-        }
-    }
-    gpu_program_set_vec4s(program, "u_rgb_from_xyz", rgb_from_xyz, 3);
-}
-
 static void set_sources(const void *self, struct gpu_program *program)
 {
     const struct spectral *sky = self;
@@ -300,7 +288,7 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
 {
     sky_set_bands(program, &sky->maps.atmosphere->bands, sky->maps.atmosphere->optics,
                   view->surface.lights_cd_m2);
-    set_xyz(program);
+    sky_set_primaries(program, (const double[]){1, 1, 1});
     spectral_maps_bind(&sky->maps, program);
     const struct shades shades = find_shades(sky, view);
     if (shades.has_march) {

@@ -16,14 +16,7 @@ static const char *const SCATTERED_NAMES[] = {"u_scattered0", "u_scattered1", "u
 static trl_result make_texture(struct gpu *gpu, const char *label, uint32_t width, uint32_t height,
                                uint32_t depth, struct gpu_texture *out)
 {
-    struct gpu_texture_desc desc = gpu_texture_desc_default();
-    desc.label = label;
-    desc.shape = depth > 1 ? GPU_SHAPE_3D : GPU_SHAPE_2D;
-    desc.format = GPU_FORMAT_RGBA32F;
-    desc.width = width;
-    desc.height = height;
-    desc.depth = depth;
-    return gpu_texture_init(gpu, &desc, out);
+    return sky_make_map(gpu, label, (const uint32_t[]){width, height, depth}, NULL, out);
 }
 
 static trl_result upload(struct gpu_texture *texture, const float *texels)

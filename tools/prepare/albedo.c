@@ -107,12 +107,7 @@ static trl_result make_three_bands(const struct places *places, struct picture *
 trl_result albedo_prepare(const struct places *places, const struct albedo_map *map)
 {
     struct picture picture;
-    trl_result result = picture_read(places, map->file, &picture);
-    if (result == TRL_OK && picture.width != 2 * picture.height) {
-        result = trl_fail(places->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                          "%s: is %u x %u; must be a whole globe", map->file, picture.width,
-                          picture.height);
-    }
+    trl_result result = picture_read_globe(places, map->file, &picture);
     if (result == TRL_OK && picture.bands != 3) {
         result = make_three_bands(places, &picture);
     }

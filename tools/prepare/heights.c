@@ -76,12 +76,7 @@ trl_result heights_read_greys(const struct places *places, const struct greys *g
 {
     struct picture picture;
     *out = (struct heights){0};
-    trl_result result = picture_read(places, greys->file, &picture);
-    if (result == TRL_OK && picture.width != 2 * picture.height) {
-        result = trl_fail(places->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                          "%s: is %u x %u; must be a whole globe", greys->file, picture.width,
-                          picture.height);
-    }
+    trl_result result = picture_read_globe(places, greys->file, &picture);
     if (result == TRL_OK) {
         result = heights_reserve(places, picture.width, picture.height, out);
     }

@@ -70,6 +70,17 @@ trl_result picture_read(const struct places *places, const char *relative, struc
     return result;
 }
 
+trl_result picture_read_globe(const struct places *places, const char *relative,
+                              struct picture *out)
+{
+    const trl_result result = picture_read(places, relative, out);
+    if (result == TRL_OK && out->width != 2 * out->height) {
+        return trl_fail(places->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: is %u x %u; must be a whole globe", relative, out->width, out->height);
+    }
+    return result;
+}
+
 void picture_finish(const struct places *places, struct picture *picture)
 {
     mem_free(places->ctx, picture->pixels);

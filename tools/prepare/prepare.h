@@ -40,6 +40,9 @@ struct picture {
 
 TRL_MUST_USE trl_result picture_read(const struct places *places, const char *relative,
                                      struct picture *out);
+// The same of a whole globe, which is twice as wide as high.
+TRL_MUST_USE trl_result picture_read_globe(const struct places *places, const char *relative,
+                                           struct picture *out);
 // As a GeoTIFF of the whole globe, column 0 at 180 W.
 TRL_MUST_USE trl_result picture_write(const struct places *places, const char *name,
                                       const struct picture *picture);
