@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Frames with a moon before the star against the same pictures by the path tracer, in which the
 // moon is a sphere that stops rays.
+#include "scene_renderer.h"
+
 #include <terrella/terrella.h>
 
 #include <math.h>
@@ -13,33 +15,11 @@
 
 enum { WIDTH = 10, HEIGHT = 12, PIXELS = WIDTH * HEIGHT, FINER = 6 };
 
-struct fixture {
-    trl_context *ctx;
-    trl_scene *scene;
-    trl_renderer *renderer;
-};
-
 static int set_up(void **state)
 {
     static struct fixture f;
-    trl_context_desc context = trl_context_desc_default();
-    context.log = trl_log_stderr;
-    context.cache_dir = "";
-    assert_int_equal(trl_context_create(&context, &f.ctx), TRL_OK);
-    assert_int_equal(trl_scene_load(f.ctx, ECLIPSE_FRAME_SCENE, &f.scene), TRL_OK);
-    trl_renderer_desc desc = trl_renderer_desc_default();
-    desc.scene = f.scene;
-    assert_int_equal(trl_renderer_create(f.ctx, &desc, &f.renderer), TRL_OK);
+    scene_renderer_make(ECLIPSE_FRAME_SCENE, &f);
     *state = &f;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    struct fixture *f = *state;
-    trl_renderer_destroy(&f->renderer);
-    trl_scene_destroy(&f->scene);
-    trl_context_destroy(&f->ctx);
     return 0;
 }
 
@@ -127,5 +107,5 @@ int main(void)
         cmocka_unit_test(totality_is_as_bright_as_traced),
         cmocka_unit_test(penumbra_is_as_bright_as_traced),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, scene_renderer_tear_down);
 }

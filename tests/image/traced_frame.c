@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Frames against the same pictures by the path tracer: camera, star, ground, air, integration over
 // wavelengths and development, of two programs that share none of it but the camera.
+#include "scene_renderer.h"
+
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include <terrella/terrella.h>
@@ -22,33 +24,11 @@ enum { WIDTH = 24, HEIGHT = 14, PIXELS = WIDTH * HEIGHT };
 static const double MEDIAN_LIMIT = 0.02;
 static const double MOST_LIMIT = 0.06;
 
-struct fixture {
-    trl_context *ctx;
-    trl_scene *scene;
-    trl_renderer *renderer;
-};
-
 static int set_up(void **state)
 {
     static struct fixture f;
-    trl_context_desc context = trl_context_desc_default();
-    context.log = trl_log_stderr;
-    context.cache_dir = "";
-    assert_int_equal(trl_context_create(&context, &f.ctx), TRL_OK);
-    assert_int_equal(trl_scene_load(f.ctx, TRACED_FRAME_SCENE, &f.scene), TRL_OK);
-    trl_renderer_desc desc = trl_renderer_desc_default();
-    desc.scene = f.scene;
-    assert_int_equal(trl_renderer_create(f.ctx, &desc, &f.renderer), TRL_OK);
+    scene_renderer_make(TRACED_FRAME_SCENE, &f);
     *state = &f;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    struct fixture *f = *state;
-    trl_renderer_destroy(&f->renderer);
-    trl_scene_destroy(&f->scene);
-    trl_context_destroy(&f->ctx);
     return 0;
 }
 
@@ -233,5 +213,5 @@ int main(void)
         cmocka_unit_test(full_disc_from_afar),      cmocka_unit_test(development_is_the_renderers),
         cmocka_unit_test(mistakes_are_refused),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, scene_renderer_tear_down);
 }

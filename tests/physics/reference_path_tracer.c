@@ -4,6 +4,8 @@
 // The path tracer against closed forms and plain quadrature. Where chance is in it, a result may be
 // four standard errors away: with about 40 comparisons and fixed seeds that fails once in 400
 // versions of the code for no reason, and each comparison also limits the standard error itself.
+#include "context.h"
+
 #include "reference/optics.h"
 #include "reference/path_tracer.h"
 #include "reference/random.h"
@@ -23,19 +25,6 @@ static const double max_z = 4;
 static double rad(double degrees)
 {
     return degrees * pi / 180;
-}
-
-static int make_context(void **state)
-{
-    trl_context_desc desc = trl_context_desc_default();
-    desc.cache_dir = "";
-    return trl_context_create(&desc, (trl_context **)state) == TRL_OK ? 0 : -1;
-}
-
-static int drop_context(void **state)
-{
-    trl_context_destroy((trl_context **)state);
-    return 0;
 }
 
 static trl_sky_query make_query(double altitude_m, double sun_zenith_deg, double view_zenith_deg,

@@ -3,6 +3,8 @@
 //
 // The path tracer where it is hard on itself: sharp phase functions near the star's disc, dense
 // clouds, bodies before the star. And its standard errors against what they claim.
+#include "context.h"
+
 #include "reference/path_tracer.h"
 #include "reference/tracer.h"
 #include "reference_media.h"
@@ -20,19 +22,6 @@ static const double max_z = 4;
 static double rad(double degrees)
 {
     return degrees * pi / 180;
-}
-
-static int make_context(void **state)
-{
-    trl_context_desc desc = trl_context_desc_default();
-    desc.cache_dir = "";
-    return trl_context_create(&desc, (trl_context **)state) == TRL_OK ? 0 : -1;
-}
-
-static int drop_context(void **state)
-{
-    trl_context_destroy((trl_context **)state);
-    return 0;
 }
 
 static trl_sky_query make_query(double altitude_m, double sun_deg, double view_deg,

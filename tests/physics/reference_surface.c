@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Paths over ground that is not a sphere: where rays meet it, what it looks like, what it hides.
+#include "context.h"
+
 #include "reference/palette.h"
 #include "reference/path_tracer.h"
 #include "reference/picture.h"
@@ -19,19 +21,6 @@ static const double pi = 3.14159265358979323846;
 static const double radius_m = 6.36e6;
 // A dome on the z axis: a sphere about the point where the axis leaves the planet.
 static const double dome_m = 5000;
-
-static int make_context(void **state)
-{
-    trl_context_desc desc = trl_context_desc_default();
-    desc.cache_dir = "";
-    return trl_context_create(&desc, (trl_context **)state) == TRL_OK ? 0 : -1;
-}
-
-static int drop_context(void **state)
-{
-    trl_context_destroy((trl_context **)state);
-    return 0;
-}
 
 // Along a direction from the centre, from the dome's middle.
 static double dome_altitude(const void *user, struct vec3 direction)
