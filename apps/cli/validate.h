@@ -104,6 +104,10 @@ double validate_spent_s(const struct validate *v);
 double validate_path_noise(const struct validate_case *c, int index);
 // Wall clock of one path of one value.
 double validate_path_cost_s(const struct validate_case *c);
+// Wall clock after which the view's mean would be decided, as far as its noise is known.
+double validate_missing_s(const struct validate_case *c);
+// False: noise is so large that errors tell nothing, and are not shown.
+bool validate_is_telling(const struct validate_case *c);
 // Compares; afterwards every answer has its judgement.
 void validate_judge(struct validate *v);
 

@@ -235,17 +235,19 @@ static void write_row(FILE *page, const struct validate_case *c)
             c->sun_elevation_deg < 0 ? "&minus;" : "", fabs(c->sun_elevation_deg));
     for (int m = 0; m < VALIDATE_MODELS; m++) {
         const struct validate_answer *answer = &c->answers[m];
-        if (answer->is_there) {
+        if (answer->is_there && validate_is_telling(c)) {
             write_errors(page, answer->judgement.mean, known_largest(&answer->judgement));
         } else {
             fprintf(page, "<td class=\"none\">&ndash;</td>");
         }
     }
     const struct judgement *j = &c->answers[TRL_SKY_SPECTRAL].judgement;
-    fprintf(page,
-            "<td>%+.2f &plusmn; %.2f</td><td>%.2f</td>"
-            "<td><span class=\"verdict %s\">%s</span></td>",
-            100 * j->signed_mean, 100 * j->signed_noise, 100 * j->noise,
+    if (validate_is_telling(c)) {
+        fprintf(page, "<td>%+.2f &plusmn; %.2f</td>", 100 * j->signed_mean, 100 * j->signed_noise);
+    } else {
+        fprintf(page, "<td>&ndash;</td>");
+    }
+    fprintf(page, "<td>%.2f</td><td><span class=\"verdict %s\">%s</span></td>", 100 * j->noise,
             verdict_classes[j->verdict], verdict_words[j->verdict]);
     fprintf(page, "<td>%.0f</td><td>%.1f</td><td>", validate_mean_paths(c), c->traced_s);
     for (int m = 0; m < VALIDATE_MODELS; m++) {

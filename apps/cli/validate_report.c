@@ -17,6 +17,9 @@ static const char *const verdict_codes[] = {[VERDICT_GOOD] = "good",
                                             [VERDICT_NOISY] = "noisy",
                                             [VERDICT_BAD] = "bad"};
 
+// Of a view, beyond which a mean error says no more than that it is dark there.
+static const double MOST_NOISE = 0.1;
+
 // In %, 8 columns wide.
 static void print_percent(double share, bool is_known)
 {
@@ -27,10 +30,10 @@ static void print_percent(double share, bool is_known)
     }
 }
 
-static void print_answer(const struct validate_answer *answer)
+static void print_answer(const struct validate_answer *answer, bool is_telling)
 {
     const struct judgement *j = &answer->judgement;
-    print_percent(j->mean, answer->is_there);
+    print_percent(j->mean, answer->is_there && is_telling);
     print_percent(j->largest, answer->is_there && j->known > 0);
 }
 
@@ -43,15 +46,38 @@ double validate_mean_paths(const struct validate_case *c)
     return c->count > 0 ? sum / c->count : 0;
 }
 
+bool validate_is_telling(const struct validate_case *c)
+{
+    return c->answers[TRL_SKY_SPECTRAL].judgement.noise <= MOST_NOISE;
+}
+
+static void print_verdict(const struct validate_case *c, enum verdict verdict)
+{
+    printf("  %s", verdict_words[verdict]);
+    const double missing_s = validate_missing_s(c);
+    if (verdict == VERDICT_NOISY && missing_s >= 1) {
+        const char *unit = missing_s < 120 ? "s" : missing_s < 7200 ? "min" : "h";
+        const double unit_s = missing_s < 120 ? 1 : missing_s < 7200 ? 60 : 3600;
+        printf(", %.0f %s more", missing_s / unit_s, unit);
+    }
+    printf("\n");
+}
+
 static void print_case(const struct validate_case *c)
 {
     const struct judgement *j = &c->answers[TRL_SKY_SPECTRAL].judgement;
-    printf("  %-7s %3.0f %8.0f %7.2f %+7.2f +- %4.2f", c->place, c->sun_elevation_deg,
-           validate_mean_paths(c), 100 * j->noise, 100 * j->signed_mean, 100 * j->signed_noise);
-    for (int m = 0; m < VALIDATE_MODELS; m++) {
-        print_answer(&c->answers[m]);
+    const bool is_telling = validate_is_telling(c);
+    printf("  %-7s %3.0f %8.0f %7.2f", c->place, c->sun_elevation_deg, validate_mean_paths(c),
+           100 * j->noise);
+    if (is_telling) {
+        printf(" %+7.2f +- %4.2f", 100 * j->signed_mean, 100 * j->signed_noise);
+    } else {
+        printf(" %15s", "-");
     }
-    printf("  %s\n", verdict_words[j->verdict]);
+    for (int m = 0; m < VALIDATE_MODELS; m++) {
+        print_answer(&c->answers[m], is_telling);
+    }
+    print_verdict(c, j->verdict);
 }
 
 static void print_scene(const struct validate_scene *scene)
@@ -79,11 +105,12 @@ static void print_explanation(void)
         "Relative errors in %%, of %d values a view (%d directions, %d wavelengths). noise: mean "
         "standard\nerror of the path tracer's values. signed mean: of the spectral model, with "
         "its standard error.\nUnder each model the mean size of its errors with what noise adds "
-        "taken out, and the largest\nbeyond its noise (-: all values are too noisy). Words are "
+        "taken out, and the largest\nbeyond its noise (-: too noisy to tell). Words are "
         "about spectral (mean 1 %%, largest 2 %%):\n"
         "  within       the mean size is shown to be, and noise hides no value that is not\n"
         "  mean within  only the signed mean is shown to be: noise hides sizes\n"
-        "  noisy        not decided in this time; OUTSIDE: noise does not explain it\n",
+        "  noisy        not decided in this time, and how much more it needs, if noise is known\n"
+        "  OUTSIDE      noise does not explain it\n",
         VALIDATE_VALUES, VALIDATE_DIRECTIONS, VALIDATE_WAVELENGTHS);
 }
 

@@ -173,6 +173,19 @@ static bool is_reached(const struct plan *plan)
                                    : sqrt(variance) / plan->c->count <= aims[plan->aim];
 }
 
+double validate_missing_s(const struct validate_case *c)
+{
+    // Only read.
+    const struct plan plan = {.c = (struct validate_case *)c, .aim = AIM_MEAN};
+    double wanted[VALIDATE_VALUES];
+    want_paths(&plan, wanted);
+    double paths = 0;
+    for (int i = 0; i < c->count; i++) {
+        paths += fmax(0, RESERVE * wanted[i] - c->paths[i]);
+    }
+    return paths * validate_path_cost_s(c);
+}
+
 // Looks at what the view needs next, now that more is known of its noise.
 static void update(struct plan *plan)
 {
