@@ -107,11 +107,14 @@ static double forward_peak(const double *moment, int lmax)
 }
 
 // Backward peaks have moments of changing sign: the odd ones are below 0. Where matter is so thin
-// that light hardly scatters twice, they are not missed.
+// that light hardly scatters twice, even along the horizon, they are not missed: at a depth of 0.2
+// straight up, g of -0.999 came out 44 % too dark half way up the sky, and negative at the horizon.
 static double backward_peak(const struct optics *optics, int i)
 {
+    const double horizon = 40; // columns straight up, of Earth's air
     const int odd = optics->lmax + 1 + optics->lmax % 2;
-    return fmin(1, optics->vertical_scattering_depth[i]) * fmax(0, -optics->moment[i][odd]);
+    const double depth = horizon * optics->vertical_scattering_depth[i];
+    return fmin(1, depth) * fmax(0, -optics->moment[i][odd]);
 }
 
 // The moments lose the peak and are scaled back to p_0 = 1; those beyond lmax are dropped.

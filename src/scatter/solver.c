@@ -96,7 +96,7 @@ static trl_result check_optics(const trl_context *ctx, const struct optics *opti
     if (optics->backward_peak > SOLVER_MAX_BACKWARD_PEAK) {
         return trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_SOLVER,
                         "a phase function has a backward peak that is too sharp to be solved: its "
-                        "moment %d is -%.2f; g of -0.9 can be, and forward peaks of any sharpness",
+                        "moment %d is -%.2f; g of -0.75 can be, and forward peaks of any sharpness",
                         optics->lmax + 1 + optics->lmax % 2, optics->backward_peak);
     }
     return TRL_OK;

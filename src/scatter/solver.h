@@ -43,8 +43,8 @@ struct solution {
 #define SOLVER_MAX_DEPTH 1000.0
 
 // Moments of backward peaks above this are refused: without them light that turns back twice would
-// be some 10 % off.
-#define SOLVER_MAX_BACKWARD_PEAK 0.4
+// be some per cent off (5 % near the horizon for a moment of 0.25).
+#define SOLVER_MAX_BACKWARD_PEAK 0.1
 
 // Solves at the wavelengths of `optics`, which must outlive the solution.
 // TRL_ERROR_INVALID (too dense, or a backward peak too sharp), TRL_ERROR_MEMORY,
