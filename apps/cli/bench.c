@@ -4,6 +4,7 @@
 #include "bench.h"
 
 #include "commands.h"
+#include "mesher_option.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,6 +49,7 @@ enum { GROUP_SPEED, GROUP_PAPERS, GROUP_ALL, GROUP_COUNT };
 struct bench_arguments {
     struct option_arguments names;
     const char *scene;
+    struct mesher_option mesher;
     struct option_number runs;
     bool is_json;
     bool lists_benches;
@@ -65,7 +67,7 @@ static const char examples[] = "  terrella bench\n"
 
 static enum options_outcome read_arguments(int argc, char **argv, struct bench_arguments *out)
 {
-    *out = (struct bench_arguments){0};
+    *out = (struct bench_arguments){.mesher = mesher_option_default()};
     const struct option options[] = {
         {.name = "json",
          .kind = OPTION_FLAG,
@@ -76,6 +78,9 @@ static enum options_outcome read_arguments(int argc, char **argv, struct bench_a
          .target.flag = &out->lists_benches,
          .help = "Print the names of all benches, each with what it measures, and measure "
                  "nothing."},
+        mesher_option_make(&out->mesher,
+                           "Mesh of the ground to measure with (see terrella render). Default: the "
+                           "default one; all where meshes are compared."),
         {.name = "runs",
          .kind = OPTION_NUMBER,
          .target.number = &out->runs,
@@ -121,6 +126,14 @@ trl_result bench_load_scene(const struct bench_job *job, const char *file, trl_s
     return result;
 }
 
+trl_renderer_desc bench_renderer_desc(const struct bench_job *job, const trl_scene *scene)
+{
+    trl_renderer_desc desc = trl_renderer_desc_default();
+    desc.scene = scene;
+    desc.mesher = job->mesher < 0 ? desc.mesher : (trl_mesher)job->mesher;
+    return desc;
+}
+
 static enum exit_status run_bench(struct app *app, const struct bench *bench,
                                   const struct bench_arguments *arguments,
                                   const struct bench_machine *machine)
@@ -132,8 +145,11 @@ static enum exit_status run_bench(struct app *app, const struct bench *bench,
     table->name = bench->name;
     table->summary = bench->summary;
     table->source = bench->source;
-    const struct bench_job job = {
-        .app = app, .scene = arguments->scene, .runs = (int)arguments->runs.value, .table = table};
+    const struct bench_job job = {.app = app,
+                                  .scene = arguments->scene,
+                                  .runs = (int)arguments->runs.value,
+                                  .mesher = arguments->mesher.mesher,
+                                  .table = table};
     enum exit_status status = report_result(bench->run(&job));
     progress_clear(&app->progress);
     if (status == EXIT_OK && arguments->is_json) {

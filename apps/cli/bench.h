@@ -13,6 +13,7 @@ struct bench_job {
     struct app *app;
     const char *scene; // file given by the user; NULL: the bench's own
     int runs;          // 0: the bench's own number
+    int mesher;        // a trl_mesher; -1: the default, or all where they are compared
     struct bench_table *table;
 };
 
@@ -23,6 +24,9 @@ static inline int bench_runs(const struct bench_job *job, int fallback)
 {
     return job->runs > 0 ? job->runs : fallback;
 }
+
+// A renderer's description with the scene and the job's mesher.
+trl_renderer_desc bench_renderer_desc(const struct bench_job *job, const trl_scene *scene);
 
 trl_result bench_run_solver(const struct bench_job *job);
 trl_result bench_run_tables(const struct bench_job *job);

@@ -188,8 +188,7 @@ trl_result bench_run_elek_fps(const struct bench_job *job)
     trl_renderer *renderer = NULL;
     trl_result result = bench_load_scene(job, "bare-sphere.json", &scene);
     if (result == TRL_OK) {
-        trl_renderer_desc desc = trl_renderer_desc_default();
-        desc.scene = scene;
+        const trl_renderer_desc desc = bench_renderer_desc(job, scene);
         result = trl_renderer_create(job->app->ctx, &desc, &renderer);
     }
     const int runs = bench_runs(job, FRAME_RUNS);

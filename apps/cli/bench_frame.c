@@ -112,8 +112,7 @@ static trl_result draw_view(struct frame_case *c, const trl_scene *scene, const 
 // Waiting for each pass takes time of its own, so frames and passes come from two renderers.
 static trl_result draw_views(const struct bench_job *job, const trl_scene *scene, bool has_passes)
 {
-    trl_renderer_desc desc = trl_renderer_desc_default();
-    desc.scene = scene;
+    trl_renderer_desc desc = bench_renderer_desc(job, scene);
     desc.measures_time = has_passes;
     struct frame_case c = {.job = job, .has_passes = has_passes};
     trl_result result = trl_renderer_create(job->app->ctx, &desc, &c.renderer);

@@ -26,6 +26,7 @@ struct compare_desc {
     const char *view_name;
     struct compare_models models;
     trl_rayleigh_desc rayleigh;
+    trl_mesher mesher;
     struct number_size size; // of each model's picture
     uint32_t samples;
     const char *output;

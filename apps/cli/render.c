@@ -243,6 +243,7 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     desc.scene = scene;
     desc.sky_model = arguments->view.sky_model;
     desc.air = (trl_air)arguments->view.air;
+    desc.mesher = mesher_option_get(&arguments->view.mesher);
     const trl_rayleigh_desc rayleigh = rayleigh_choice_resolve(&arguments->view.rayleigh, scene);
     desc.rayleigh = &rayleigh;
     desc.spectrum = (trl_spectrum)arguments->spectrum;
@@ -290,6 +291,7 @@ static struct compare_desc make_comparison(struct app *app, const trl_scene *sce
         .models = arguments->models,
         .size = arguments->size,
         .rayleigh = rayleigh_choice_resolve(&arguments->view.rayleigh, scene),
+        .mesher = mesher_option_get(&arguments->view.mesher),
         .samples = sample_count(arguments),
         .output = arguments->output,
         .is_exr = strcasecmp(output_suffix(arguments->output), "exr") == 0};
@@ -332,12 +334,12 @@ static enum exit_status render_scene(struct app *app, const trl_scene *scene,
 
 static enum exit_status check_arguments(const struct render_arguments *arguments)
 {
-    const bool is_drawn = arguments->compare || arguments->shows_timings ||
-                          arguments->samples.value > 1 ||
-                          arguments->view.sky_model != TRL_SKY_MODEL_OF_SCENE;
+    const bool is_drawn =
+        arguments->compare || arguments->shows_timings || arguments->samples.value > 1 ||
+        arguments->view.sky_model != TRL_SKY_MODEL_OF_SCENE || arguments->view.mesher.mesher >= 0;
     if (arguments->traced.is_wanted && is_drawn) {
         return report_error(EXIT_USAGE, "render: --reference cannot be given with --compare, "
-                                        "--samples, --timings or --sky-model");
+                                        "--samples, --timings, --sky-model or --mesher");
     }
     const enum exit_status status = rayleigh_choice_check(&arguments->view.rayleigh);
     return status == EXIT_OK ? traced_check(&arguments->traced) : status;

@@ -92,6 +92,7 @@ static enum exit_status open_window(struct app *app, const struct view_arguments
                                    .scene_path = arguments->scene,
                                    .sky_model = arguments->view.sky_model,
                                    .air = (trl_air)arguments->view.air,
+                                   .mesher = mesher_option_get(&arguments->view.mesher),
                                    .rayleigh = &rayleigh,
                                    .view = view,
                                    .width = arguments->size.width,

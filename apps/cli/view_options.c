@@ -30,6 +30,7 @@ struct view_choice view_choice_default(void)
     return (struct view_choice){.tone = -1,
                                 .air = TRL_AIR_MARCH,
                                 .sky_model = TRL_SKY_MODEL_OF_SCENE,
+                                .mesher = mesher_option_default(),
                                 .rayleigh = rayleigh_choice_default()};
 }
 
@@ -145,11 +146,16 @@ enum options_outcome view_command_read(const struct view_command *command, int a
              "Of the spectral sky: march (terrain casts shadows into the air) or table (it does "
              "not; faster). Default: march."},
     };
+    const struct option mesher =
+        mesher_option_make(&command->choice->mesher,
+                           "How the mesh of the ground is made: hemisphere (a grid that faces the "
+                           "camera, Michelic 2019). Default: hemisphere.");
     const struct option_section sections[] = {
         command->own,
         {"Camera", camera, CAMERA_OPTIONS},
         {"Sun", sun, SUN_OPTIONS},
         {"Exposure", exposure, EXPOSURE_OPTIONS},
+        {"Ground", &mesher, 1},
         {"Sky", sky, sizeof sky / sizeof *sky},
         {RAYLEIGH_OPTIONS_HEADING, rayleigh, RAYLEIGH_OPTIONS}};
     const struct option_spec spec = {.command = command->name,

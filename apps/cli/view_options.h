@@ -5,6 +5,7 @@
 // The options with which a picture's camera, sun and exposure are chosen: a view of the scene, and
 // what replaces parts of it. Shared by the commands that draw.
 
+#include "mesher_option.h"
 #include "rayleigh_options.h"
 #include <terrella/renderer.h>
 
@@ -19,6 +20,7 @@ struct view_choice {
     int tone;      // index of the word; -1: as in the view
     int air;       // a trl_air
     int sky_model; // a trl_sky_model; TRL_SKY_MODEL_OF_SCENE when it was not given
+    struct mesher_option mesher;
     struct rayleigh_choice rayleigh;
 };
 

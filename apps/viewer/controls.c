@@ -157,6 +157,17 @@ static void toggle_air(struct viewer *viewer)
     viewer->is_changed = true;
 }
 
+// The next one; behind the last comes the first.
+static void change_mesher(struct viewer *viewer)
+{
+    trl_mesher next = trl_renderer_mesher(viewer->renderer) + 1;
+    next = trl_mesher_name(next) ? next : (trl_mesher)0;
+    if (trl_renderer_set_mesher(viewer->renderer, next) == TRL_OK) {
+        viewer->is_changed = true;
+        viewer->last_title_s = 0.0;
+    }
+}
+
 static void note_key(GLFWwindow *window, int key, int scancode, int action, int modifiers)
 {
     (void)scancode;
@@ -189,6 +200,9 @@ static void note_key(GLFWwindow *window, int key, int scancode, int action, int 
         break;
     case GLFW_KEY_G:
         toggle_air(viewer);
+        break;
+    case GLFW_KEY_N:
+        change_mesher(viewer);
         break;
     case GLFW_KEY_F:
         toggle_fullscreen(viewer);

@@ -14,7 +14,7 @@
     "  up, down          turn the sun by season\n"                                                 \
     "  + -  0            brighter, darker; automatic exposure without bias\n"                      \
     "  T  M              other tone curve; other model of the sky\n"                               \
-    "  G                 shadows in the air, or none\n"                                            \
+    "  G  N              shadows in the air, or none; other mesh of the ground\n"                  \
     "  C                 choose a constituent of the air, one after the other\n"                   \
     "  , .               less, more of it\n"                                                       \
     "  ; '               scatter it less, more forward (asymmetry g)\n"                            \
@@ -30,6 +30,7 @@ struct viewer_desc {
     const char *scene_path; // the file, which is followed when it is saved; NULL: not followed
     int sky_model;          // as in trl_renderer_desc
     trl_air air;            // to begin with
+    trl_mesher mesher;      // to begin with
     const trl_rayleigh_desc *rayleigh; // as in trl_renderer_desc
     trl_view view;                     // where it begins
     uint32_t width, height;            // of the window

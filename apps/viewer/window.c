@@ -27,10 +27,11 @@ static void show_title(struct viewer *viewer, double now_s)
     edit_describe(&viewer->edit, edited);
     char title[384];
     snprintf(title, sizeof title,
-             "%s: %s%s%s%.1f ms at %ux%u, %.*f %s, EV %.1f%+.2f, speed %.3g, H: keys",
+             "%s: %s%s%s%.1f ms at %ux%u, %s, %.*f %s, EV %.1f%+.2f, speed %.3g, H: keys",
              trl_scene_name(viewer->desc->scene), edited, *edited ? ", " : "",
              trl_renderer_is_settled(viewer->renderer) ? "" : "solving, ", 1e3 * viewer->frame_s,
-             viewer->drawn_width, viewer->drawn_height, altitude_m < 1e5 ? 1 : 0,
+             viewer->drawn_width, viewer->drawn_height,
+             trl_mesher_name(trl_renderer_mesher(viewer->renderer)), altitude_m < 1e5 ? 1 : 0,
              altitude_m < 1e4 ? altitude_m : 1e-3 * altitude_m, altitude_m < 1e4 ? "m" : "km",
              ev100, viewer->view.exposure_bias_ev, viewer->speed_factor);
     glfwSetWindowTitle(viewer->window, title);
@@ -224,6 +225,7 @@ static void fly_scene(struct viewer *viewer)
     desc.gl = TRL_GL_CURRENT;
     desc.sky_model = viewer->desc->sky_model;
     desc.air = viewer->desc->air;
+    desc.mesher = viewer->desc->mesher;
     desc.rayleigh = viewer->desc->rayleigh;
     viewer->result = trl_renderer_create(viewer->desc->ctx, &desc, &viewer->renderer);
     if (viewer->result != TRL_OK || !controls_resolve(viewer, &viewer->desc->view, &viewer->view)) {

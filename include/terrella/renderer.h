@@ -50,6 +50,17 @@ typedef enum trl_air {
 /// The word for it on the command line; NULL for what is none. Threads: any.
 TRL_API const char *trl_air_name(trl_air air);
 
+/// How the mesh of the ground is made. All draw the same surface; they differ in where triangles
+/// are, in time and in memory (docs/bench.md, terrain-error).
+typedef enum trl_mesher {
+    TRL_MESHER_HEMISPHERE ///< "hemisphere": a grid that faces the camera, seen from the planet's
+                          ///< centre (Michelic 2019)
+} trl_mesher;
+
+/// The word for it on the command line; NULL for what is none, as for the first number behind the
+/// last mesher. Threads: any.
+TRL_API const char *trl_mesher_name(trl_mesher mesher);
+
 /// trl_renderer_desc.sky_model: what the scene asks for.
 #define TRL_SKY_MODEL_OF_SCENE (-1)
 
@@ -63,6 +74,7 @@ typedef struct trl_renderer_desc {
                             ///< light may have, at most TRL_SKY_MAX_ORDERS; 0 (default): all
     int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
     trl_air air;            ///< default TRL_AIR_MARCH
+    trl_mesher mesher;      ///< default TRL_MESHER_HEMISPHERE
     const trl_rayleigh_desc *rayleigh; ///< for TRL_SKY_RAYLEIGH; copied; NULL (default): as the
                                        ///< scene asks
     bool measures_time; ///< each draw waits for the GPU and fills trl_renderer_timings; default
@@ -204,6 +216,28 @@ TRL_API TRL_MUST_USE trl_result trl_renderer_set_air(trl_renderer *renderer, trl
 
 /// The way that frames are drawn with.
 TRL_API trl_air trl_renderer_air(const trl_renderer *renderer);
+
+/// Makes the mesh of the ground in another way from the next frame on. The first time for each
+/// mesher builds its programs; what was made is kept. A scene without surface layers has no mesh,
+/// and remembers the choice only.
+/// @return TRL_OK; TRL_ERROR_INVALID (there is no such mesher); TRL_ERROR_MEMORY; TRL_ERROR_GPU;
+///         on failure the old one stays
+TRL_API TRL_MUST_USE trl_result trl_renderer_set_mesher(trl_renderer *renderer, trl_mesher mesher);
+
+/// The mesher that frames are drawn with.
+TRL_API trl_mesher trl_renderer_mesher(const trl_renderer *renderer);
+
+/// What the mesh of the last frame took.
+typedef struct trl_mesh_stats {
+    uint32_t triangles; ///< handed to the GPU
+    uint32_t draws;     ///< calls that it took
+    uint64_t bytes; ///< held by the mesher: vertices, indices, its own textures; not the rasters
+} trl_mesh_stats;
+
+/// @param[out] out  all 0 for a scene without surface layers, and before the first draw
+/// @return TRL_OK; TRL_ERROR_INVALID
+TRL_API TRL_MUST_USE trl_result trl_renderer_mesh_stats(const trl_renderer *renderer,
+                                                        trl_mesh_stats *out);
 
 /// How long one pass of the last frame took.
 typedef struct trl_timing {

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Vertices of the hemisphere mesh, read from the texture that grid.frag drew.
+#include "terrain/depth.glsl"
 
 uniform highp sampler2D u_positions;
 uniform vec3 u_camera_offset; // anchor on the sphere - camera, planet axes, m
 uniform mat3 u_view;          // rows right / tan, up / tan, forward
-uniform float u_near_m;
 
 out vec4 v_position; // relative to the camera; altitude
 
@@ -15,6 +15,5 @@ void main()
     int row = gl_VertexID / side;
     vec4 p = texelFetch(u_positions, ivec2(gl_VertexID - row * side, row), 0);
     v_position = vec4(p.xyz + u_camera_offset, p.w);
-    vec3 view = u_view * v_position.xyz;
-    gl_Position = vec4(view.xy, u_near_m, view.z); // reversed depth, no far plane
+    gl_Position = depth_clip(u_view * v_position.xyz);
 }

@@ -22,7 +22,8 @@ trl_renderer_desc trl_renderer_desc_default(void)
                                .gl = TRL_GL_HEADLESS,
                                .wavelengths = 16,
                                .sky_model = TRL_SKY_MODEL_OF_SCENE,
-                               .air = TRL_AIR_MARCH};
+                               .air = TRL_AIR_MARCH,
+                               .mesher = TRL_MESHER_HEMISPHERE};
 }
 
 static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, trl_renderer **out)
@@ -42,6 +43,7 @@ static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, 
                                                                : (trl_sky_model)desc->sky_model,
         .rayleigh = desc->rayleigh ? *desc->rayleigh : desc->scene->rayleigh,
         .air = desc->air,
+        .mesher = desc->mesher,
         .measures_time = desc->measures_time};
     const trl_result result = frame_init(&frame, &renderer->frame);
     if (result != TRL_OK) {
@@ -67,6 +69,7 @@ trl_result trl_renderer_create(trl_context *ctx, const trl_renderer_desc *desc, 
     TRL_REQUIRE(ctx, desc->spectrum == TRL_SPECTRUM_FULL || desc->spectrum == TRL_SPECTRUM_RGB);
     TRL_REQUIRE(ctx, desc->max_orders <= TRL_SKY_MAX_ORDERS);
     TRL_REQUIRE(ctx, trl_air_name(desc->air) != NULL);
+    TRL_REQUIRE(ctx, trl_mesher_name(desc->mesher) != NULL);
     const trl_result result = desc->rayleigh ? check_rayleigh(ctx, desc->rayleigh) : TRL_OK;
     return result == TRL_OK ? create_frame(ctx, desc, out) : result;
 }
@@ -283,6 +286,37 @@ trl_result trl_renderer_set_air(trl_renderer *renderer, trl_air air)
 trl_air trl_renderer_air(const trl_renderer *renderer)
 {
     return renderer ? renderer->frame.air : TRL_AIR_MARCH;
+}
+
+const char *trl_mesher_name(trl_mesher mesher)
+{
+    return mesher_name(mesher);
+}
+
+trl_result trl_renderer_set_mesher(trl_renderer *renderer, trl_mesher mesher)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx, trl_mesher_name(mesher) != NULL);
+    const trl_result result = gpu_make_current(renderer->frame.gpu);
+    return result == TRL_OK ? ground_set_mesher(&renderer->frame.ground, mesher) : result;
+}
+
+trl_mesher trl_renderer_mesher(const trl_renderer *renderer)
+{
+    return renderer ? renderer->frame.ground.mesher : TRL_MESHER_HEMISPHERE;
+}
+
+trl_result trl_renderer_mesh_stats(const trl_renderer *renderer, trl_mesh_stats *out)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx, out != NULL);
+    const struct mesher_stats stats = ground_mesher_stats(&renderer->frame.ground);
+    *out = (trl_mesh_stats){stats.triangles, stats.draws, stats.bytes};
+    return TRL_OK;
 }
 
 double trl_renderer_ground_altitude_m(const trl_renderer *renderer, double latitude_rad,

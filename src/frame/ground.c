@@ -51,9 +51,24 @@ static trl_result load_surface(struct gpu *gpu, const struct trl_scene *scene,
     return surface_init(gpu, &desc, surface);
 }
 
+trl_result ground_set_mesher(struct ground *ground, trl_mesher mesher)
+{
+    struct mesher **slot = &ground->meshers[mesher];
+    const trl_result result =
+        ground->is_bare || *slot ? TRL_OK : mesher_create(&ground->surface, mesher, slot);
+    ground->mesher = result == TRL_OK ? mesher : ground->mesher;
+    return result;
+}
+
+struct mesher_stats ground_mesher_stats(const struct ground *ground)
+{
+    const struct mesher *mesher = ground->meshers[ground->mesher];
+    return mesher ? mesher->stats : (struct mesher_stats){0};
+}
+
 static trl_result make_passes(struct ground *ground, double sun_angular_radius_rad)
 {
-    trl_result result = mesher_create(&ground->surface, MESHER_HEMISPHERE, &ground->mesher);
+    trl_result result = ground_set_mesher(ground, ground->mesher);
     if (result == TRL_OK) {
         result = terrain_shadow_init(&ground->surface, sun_angular_radius_rad, &ground->shadow);
     }
@@ -75,9 +90,11 @@ double ground_find_lights_cd_m2(const struct trl_scene *scene)
     return brightest_cd_m2;
 }
 
-trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene, struct ground *out)
+trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene, trl_mesher mesher,
+                       struct ground *out)
 {
     *out = (struct ground){.gpu = gpu,
+                           .mesher = mesher,
                            .lights_cd_m2 = ground_find_lights_cd_m2(scene),
                            .region_m = 2 * medium_scattering_height(&scene->medium)};
     trl_result result = load_surface(gpu, scene, &out->surface);
@@ -108,7 +125,9 @@ void ground_finish(struct ground *ground)
     finish_buffers(ground);
     terrain_compose_finish(&ground->compose);
     terrain_shadow_finish(&ground->shadow);
-    mesher_destroy(&ground->mesher);
+    for (int i = 0; i < MESHER_MAX_KINDS; i++) {
+        mesher_destroy(&ground->meshers[i]);
+    }
     surface_finish(&ground->surface);
     *ground = (struct ground){0};
 }
@@ -180,9 +199,10 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
         return TRL_OK;
     }
     frame_clock_part(clock, "mesh");
-    trl_result result = mesher_update(ground->mesher, camera);
+    struct mesher *mesher = ground->meshers[ground->mesher];
+    trl_result result = mesher_update(mesher, camera);
     if (result == TRL_OK) {
-        result = mesher_draw(ground->mesher, &ground->mesh_target);
+        result = mesher_draw(mesher, &ground->mesh_target);
     }
     if (result == TRL_OK) {
         frame_clock_part(clock, "shadow");

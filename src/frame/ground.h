@@ -26,7 +26,9 @@ struct ground {
     double lights_cd_m2; // luminance of white in `lights`
     double region_m;     // width of the averages in `region`
     struct surface surface;
-    struct mesher *mesher; // NULL when bare, as the two passes below
+    trl_mesher mesher;                        // that frames are drawn with
+    struct mesher *meshers[MESHER_MAX_KINDS]; // by trl_mesher; made when first asked for; none when
+                                              // bare, as the two passes below
     struct terrain_shadow shadow;
     struct terrain_compose compose;
     struct gpu_texture position, depth, albedo, normal, lights, region;
@@ -41,8 +43,15 @@ void ground_describe(const struct trl_scene *scene,
 double ground_find_lights_cd_m2(const struct trl_scene *scene);
 
 TRL_MUST_USE trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene,
-                                    struct ground *out);
+                                    trl_mesher mesher, struct ground *out);
 void ground_finish(struct ground *ground);
+
+// Draws with that mesher from now on; makes it when it is asked for first. A failure leaves the old
+// one.
+TRL_MUST_USE trl_result ground_set_mesher(struct ground *ground, trl_mesher mesher);
+
+// Of the mesher that frames are drawn with; zeroed when bare.
+struct mesher_stats ground_mesher_stats(const struct ground *ground);
 
 // Makes the buffers anew. After a failure there are none, and it must be called again.
 TRL_MUST_USE trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height);

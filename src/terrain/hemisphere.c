@@ -11,6 +11,7 @@
 #include "gpu/mesh.h"
 #include "gpu/pass.h"
 #include "shared/hemisphere.glsl"
+#include "terrain/depth.h"
 #include "terrain/projection.h"
 
 #include <math.h>
@@ -247,18 +248,17 @@ static void set_camera(struct hemisphere *h)
         view[6 + i] = (float)rows[i].z;
     }
     const float camera_offset[3] = {(float)offset.x, (float)offset.y, (float)offset.z};
-    const double height = vec3_length(c->position_m) - h->surface->radius_m -
-                          surface_altitude(h->surface, c->position_m);
     gpu_program_set_vec3(&h->mesh_program, "u_camera_offset", camera_offset);
     gpu_program_set_mat3(&h->mesh_program, "u_view", view);
-    // Ground nearer than a quarter of the height would be a cliff of 75 degrees beside the camera.
-    gpu_program_set_float(&h->mesh_program, "u_near_m", (float)fmax(0.05, 0.25 * height));
     gpu_program_set_texture(&h->mesh_program, "u_positions", &h->positions);
 }
 
-static bool is_visible(const struct hemisphere *h, uint32_t chunk)
+static bool is_visible(const struct hemisphere *h, uint32_t chunk, const struct depth_range *range)
 {
-    return is_in_frustum(&h->camera, &h->chunks[chunk]) && is_above_horizon(h, &h->chunks[chunk]);
+    const struct chunk *c = &h->chunks[chunk];
+    const double along = vec3_dot(h->camera.forward, vec3_sub(c->centre_m, h->camera.position_m));
+    return depth_range_holds(range, along, c->radius_m) && is_in_frustum(&h->camera, c) &&
+           is_above_horizon(h, c);
 }
 
 static trl_result draw_run(struct hemisphere *h, uint32_t first, uint32_t count)
@@ -272,27 +272,33 @@ static trl_result draw_run(struct hemisphere *h, uint32_t first, uint32_t count)
     return gpu_draw_mesh_range(&h->mesh_program, mesh, range, "terrain mesh");
 }
 
-static trl_result draw(struct mesher *base, const struct gpu_target *target)
+static trl_result draw_range(struct hemisphere *h, const struct depth_range *range)
 {
-    struct hemisphere *h = (struct hemisphere *)base;
-    const struct gpu_pass pass = {
-        .target = target,
-        .state = {.depth = GPU_DEPTH_NEARER, .writes_depth = true, .cull = GPU_CULL_BACK},
-        .clears_color = true,
-        .color = {0, 0, 0, MESHER_NO_SURFACE},
-        .clears_depth = true};
-    gpu_pass_begin(h->gpu, &pass);
-    h->base.stats = (struct mesher_stats){.projections = h->base.stats.projections};
-    set_camera(h);
+    depth_range_bind(range, &h->mesh_program);
     trl_result result = TRL_OK;
     for (uint32_t i = 0; i < CHUNKS && result == TRL_OK; i++) {
         const uint32_t first = i;
-        while (i < CHUNKS && is_visible(h, i)) {
+        while (i < CHUNKS && is_visible(h, i, range)) {
             i++;
         }
         if (i > first) {
             result = draw_run(h, first, i - first);
         }
+    }
+    return result;
+}
+
+static trl_result draw(struct mesher *base, const struct gpu_target *target)
+{
+    struct hemisphere *h = (struct hemisphere *)base;
+    const struct depth_ranges ranges = depth_ranges_make(h->surface, &h->camera);
+    struct mesher_stats *stats = &h->base.stats;
+    stats->triangles = stats->draws = stats->chunks = 0;
+    set_camera(h);
+    trl_result result = TRL_OK;
+    for (int i = 0; i < ranges.count && result == TRL_OK; i++) {
+        depth_range_begin(&ranges, i, target, GPU_CULL_BACK);
+        result = draw_range(h, &ranges.of[i]);
     }
     return result;
 }
@@ -329,6 +335,10 @@ trl_result hemisphere_create(const struct surface *surface, struct mesher **out)
     if (result != TRL_OK) {
         destroy(&h->base);
         return result;
+    }
+    h->base.stats.bytes = sizeof *h + sizeof(float[4]) * (CELLS + 1) * (CELLS + 1);
+    for (uint32_t i = 0; i < MESHES; i++) {
+        h->base.stats.bytes += sizeof(uint32_t) * (uint64_t)h->meshes[i].index_count;
     }
     *out = &h->base;
     return TRL_OK;

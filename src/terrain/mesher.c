@@ -2,17 +2,28 @@
 // SPDX-License-Identifier: MIT
 #include "terrain/mesher.h"
 
-trl_result mesher_create(const struct surface *surface, enum mesher_kind kind, struct mesher **out)
+struct kind {
+    const char *name;
+    trl_result (*create)(const struct surface *surface, struct mesher **out);
+};
+
+static const struct kind KINDS[MESHER_MAX_KINDS] = {
+    [TRL_MESHER_HEMISPHERE] = {"hemisphere", hemisphere_create},
+};
+
+const char *mesher_name(trl_mesher kind)
+{
+    return (unsigned)kind < MESHER_MAX_KINDS ? KINDS[kind].name : NULL;
+}
+
+trl_result mesher_create(const struct surface *surface, trl_mesher kind, struct mesher **out)
 {
     *out = NULL;
-    switch (kind) {
-    case MESHER_HEMISPHERE:
-        return hemisphere_create(surface, out);
-    case MESHER_KIND_COUNT:
-        break;
+    if (!mesher_name(kind)) {
+        return trl_fail(surface->gpu->ctx, TRL_ERROR_UNSUPPORTED, TRL_LOG_ITEM_GENERAL,
+                        "there is no mesher number %d", (int)kind);
     }
-    return trl_fail(surface->gpu->ctx, TRL_ERROR_UNSUPPORTED, TRL_LOG_ITEM_GENERAL,
-                    "there is no mesher number %d", (int)kind);
+    return KINDS[kind].create(surface, out);
 }
 
 void mesher_destroy(struct mesher **mesher)

@@ -3,20 +3,22 @@
 #ifndef TERRAIN_MESHER_H
 #define TERRAIN_MESHER_H
 // Meshes of the ground behind one interface. A mesher knows heights only through struct surface.
+//
+// A new one is an enumerator of trl_mesher, its create function below, and a line in the table of
+// mesher.c.
 
 #include "base/camera.h"
 #include "gpu/target.h"
 #include "terrain/surface.h"
+#include <terrella/renderer.h>
 
-enum mesher_kind {
-    MESHER_HEMISPHERE, // Michelic 2019, Section 3
-    MESHER_KIND_COUNT
-};
+enum { MESHER_MAX_KINDS = 8 };
 
 // Of the last draw, and since creation.
 struct mesher_stats {
     uint32_t triangles, draws, chunks;
     uint32_t projections; // times the mesh was made anew
+    uint64_t bytes;       // of GPU and CPU memory that it holds
 };
 
 struct mesher;
@@ -32,8 +34,11 @@ struct mesher {
     struct mesher_stats stats;
 };
 
+// NULL: there is no such mesher.
+const char *mesher_name(trl_mesher kind);
+
 // TRL_ERROR_UNSUPPORTED: a kind that is not there; TRL_ERROR_MEMORY; TRL_ERROR_GPU.
-TRL_MUST_USE trl_result mesher_create(const struct surface *surface, enum mesher_kind kind,
+TRL_MUST_USE trl_result mesher_create(const struct surface *surface, trl_mesher kind,
                                       struct mesher **out);
 void mesher_destroy(struct mesher **mesher);
 
@@ -42,7 +47,7 @@ TRL_MUST_USE trl_result mesher_update(struct mesher *mesher, const struct camera
 
 // Clears `target` and draws what the camera of the last update sees. Color 0, RGBA32F: position
 // relative to the camera along planet axes in m, altitude above the reference sphere in m; 0, 0, 0,
-// MESHER_NO_SURFACE where there is no ground. Depth: DEPTH32F, reversed, no far plane.
+// MESHER_NO_SURFACE where there is no ground. Depth: DEPTH32F, as terrain/depth.h says.
 #define MESHER_NO_SURFACE (-1e9f)
 TRL_MUST_USE trl_result mesher_draw(struct mesher *mesher, const struct gpu_target *target);
 

@@ -144,7 +144,8 @@ class Traced(ProgramTest):
         self.expect_failure(1, self.words, ["h.tif"])
 
     def test_wrong_words(self):
-        for more in [["--samples", "2"], ["--timings"], ["--sky-model", "single"], ["--compare", "spectral,single"]]:
+        for more in [["--samples", "2"], ["--timings"], ["--mesher", "hemisphere"], ["--sky-model", "single"],
+                     ["--compare", "spectral,single"]]:
             self.expect_failure(2, self.words + more, ["--reference", more[0]])
         for alone in [["--paths", "9"], ["--seed", "1"], ["--error", "e.exr"]]:
             self.expect_failure(2, ["render", self.scene] + alone, ["--reference", alone[0]])

@@ -89,9 +89,32 @@ static void wrong_descriptions_are_refused(void **state)
     expect_invalid(s, trl_renderer_create(s->f->ctx, &desc, &out));
     desc.wavelengths = TRL_RENDERER_MAX_WAVELENGTHS + 1;
     expect_invalid(s, trl_renderer_create(s->f->ctx, &desc, &out));
+    desc.wavelengths = 1;
+    desc.mesher = (trl_mesher)99;
+    expect_invalid(s, trl_renderer_create(s->f->ctx, &desc, &out));
     const trl_renderer_desc zeroed = {.scene = s->scene};
     expect_invalid(s, trl_renderer_create(s->f->ctx, &zeroed, &out));
     assert_int_equal(trl_renderer_create(NULL, &desc, &out), TRL_ERROR_INVALID);
+}
+
+static void meshers_have_names_and_others_are_refused(void **state)
+{
+    struct setup *s = *state;
+    int count = 0;
+    for (; trl_mesher_name((trl_mesher)count); count++) {
+        assert_int_equal(trl_renderer_set_mesher(s->renderer, (trl_mesher)count), TRL_OK);
+        assert_int_equal(trl_renderer_mesher(s->renderer), count);
+    }
+    assert_true(count >= 1);
+    expect_invalid(s, trl_renderer_set_mesher(s->renderer, (trl_mesher)count));
+    expect_invalid(s, trl_renderer_set_mesher(s->renderer, (trl_mesher)-1));
+    assert_int_equal(trl_renderer_mesher(s->renderer), count - 1);
+    trl_mesh_stats stats = {1, 1, 1};
+    assert_int_equal(trl_renderer_mesh_stats(s->renderer, &stats), TRL_OK);
+    assert_int_equal(stats.triangles, 0); // a bare sphere
+    expect_invalid(s, trl_renderer_mesh_stats(s->renderer, NULL));
+    assert_int_equal(trl_renderer_set_mesher(s->renderer, trl_renderer_desc_default().mesher),
+                     TRL_OK);
 }
 
 static void wrong_sizes_are_refused(void **state)
@@ -372,6 +395,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_descriptions_are_refused),
+        cmocka_unit_test(meshers_have_names_and_others_are_refused),
         cmocka_unit_test(wrong_sizes_are_refused),
         cmocka_unit_test(views_with_wrong_numbers_are_refused),
         cmocka_unit_test(nothing_is_read_before_something_is_drawn),

@@ -46,7 +46,7 @@ static void make_planet(struct fixture *f, struct planet *p)
     desc.layers = layers;
     p->f = f;
     assert_int_equal(surface_init(f->gpu, &desc, &p->surface), TRL_OK);
-    assert_int_equal(mesher_create(&p->surface, MESHER_HEMISPHERE, &p->mesher), TRL_OK);
+    assert_int_equal(mesher_create(&p->surface, TRL_MESHER_HEMISPHERE, &p->mesher), TRL_OK);
     fixture_picture_init(f, &p->picture);
 }
 

@@ -51,7 +51,7 @@ static void make_scene(struct fixture *f, struct scene *s)
     desc.layers = &layer;
     desc.layer_count = 1;
     assert_int_equal(surface_init(f->gpu, &desc, &s->surface), TRL_OK);
-    assert_int_equal(mesher_create(&s->surface, MESHER_HEMISPHERE, &s->mesher), TRL_OK);
+    assert_int_equal(mesher_create(&s->surface, TRL_MESHER_HEMISPHERE, &s->mesher), TRL_OK);
     assert_int_equal(terrain_shadow_init(&s->surface, SUN_RADIUS_RAD, &s->shadow), TRL_OK);
     assert_int_equal(terrain_compose_init(&s->surface, &s->compose), TRL_OK);
     fixture_picture_init(f, &s->picture);
