@@ -74,6 +74,9 @@ typedef struct trl_context_desc {
     /// Where solved tables are kept; "": nowhere. NULL: $TERRELLA_CACHE (empty: nowhere); without
     /// it terrella/tables below $XDG_CACHE_HOME or ~/.cache.
     const char *cache_dir;
+    /// Whether scenes may name rasters behind a network ("https://…", "s3://…"); they are read in
+    /// parts as far as views need them. Default false: such a scene is refused.
+    bool allows_remote;
 } trl_context_desc;
 
 /// A desc with every default set. Threads: any.

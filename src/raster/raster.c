@@ -3,6 +3,7 @@
 #include "raster/raster.h"
 
 #include "raster/gdal.h"
+#include "raster/remote.h"
 
 #include <cpl_conv.h>
 #include <errno.h>
@@ -27,10 +28,18 @@ static trl_result fail_file(const struct raster *raster, trl_result code, const 
     return trl_fail(raster->ctx, code, TRL_LOG_ITEM_RASTER, "%s: %s", raster->path, why);
 }
 
-// GDAL takes connection strings and network paths for names; only a file that is there may pass.
-static trl_result check_local_file(const struct raster *raster)
+// GDAL takes connection strings and network paths for names; only a file that is there may pass,
+// and a URL where the user has allowed it.
+static trl_result check_file(const struct raster *raster)
 {
     struct stat info;
+    if (raster->is_remote && !raster->ctx->desc.allows_remote) {
+        return fail_file(raster, TRL_ERROR_INVALID,
+                         "rasters are read from local files only, unless remote ones are allowed");
+    }
+    if (raster->is_remote) {
+        return TRL_OK;
+    }
     if (strncmp(raster->path, "/vsi", 4) == 0 || strstr(raster->path, "://")) {
         return fail_file(raster, TRL_ERROR_INVALID, "rasters are read from local files only");
     }
@@ -46,31 +55,50 @@ static trl_result check_local_file(const struct raster *raster)
     return TRL_OK;
 }
 
-static GDALDatasetH open_with(const char *path, const char *const *options)
+static GDALDatasetH open_with(const struct raster *raster, const char *const *options)
 {
-    return GDALOpenEx(path, GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                      ALLOWED_DRIVERS, options, NULL);
-}
-
-// Compressed tiles are unpacked on all cores; without compression those threads only cost.
-static GDALDatasetH open_threaded(const char *path)
-{
-    GDALDatasetH dataset = open_with(path, NULL);
-    if (dataset && GDALGetMetadataItem(dataset, "COMPRESSION", "IMAGE_STRUCTURE") &&
-        strcmp(GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), "GTiff") == 0) {
-        GDALClose(dataset);
-        dataset = open_with(path, (const char *const[]){"NUM_THREADS=ALL_CPUS", NULL});
+    // Over a network only what can be read in parts.
+    static const char *const remote_drivers[] = {"GTiff", NULL};
+    char *path = raster->is_remote ? remote_vsi_path(raster->ctx, raster->path) : raster->path;
+    if (!path) {
+        return NULL;
+    }
+    GDALDatasetH dataset =
+        GDALOpenEx(path, GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                   raster->is_remote ? remote_drivers : ALLOWED_DRIVERS, options, NULL);
+    if (path != raster->path) {
+        mem_free(raster->ctx, path);
     }
     return dataset;
 }
 
-static trl_result open_dataset(struct raster *raster)
+// Compressed tiles are unpacked on all cores; without compression those threads only cost.
+static GDALDatasetH open_threaded(const struct raster *raster)
+{
+    GDALDatasetH dataset = open_with(raster, NULL);
+    if (dataset && !raster->is_remote &&
+        GDALGetMetadataItem(dataset, "COMPRESSION", "IMAGE_STRUCTURE") &&
+        strcmp(GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), "GTiff") == 0) {
+        GDALClose(dataset);
+        dataset = open_with(raster, (const char *const[]){"NUM_THREADS=ALL_CPUS", NULL});
+    }
+    return dataset;
+}
+
+static trl_result open_dataset(struct raster *raster, bool is_threaded)
 {
     gdal_register();
     struct gdal_catcher catcher;
     gdal_catch_begin(&catcher, raster->ctx);
-    raster->dataset = open_threaded(raster->path);
+    remote_begin(raster->is_remote);
+    raster->dataset = is_threaded ? open_threaded(raster) : open_with(raster, NULL);
+    remote_end(raster->is_remote);
     gdal_catch_end(&catcher);
+    if (!raster->dataset && raster->is_remote) {
+        return fail_file(raster, TRL_ERROR_IO,
+                         catcher.message[0] ? catcher.message
+                                            : "cannot be fetched, or is no GeoTIFF");
+    }
     if (!raster->dataset) {
         return fail_file(raster, TRL_ERROR_INVALID,
                          catcher.message[0] ? catcher.message : "not a raster");
@@ -185,13 +213,14 @@ static trl_result read_georeference(struct raster *raster)
 
 trl_result raster_open(const trl_context *ctx, const char *path, struct raster *out)
 {
-    *out = (struct raster){.ctx = ctx, .path = mem_strdup(ctx, path)};
+    *out = (struct raster){
+        .ctx = ctx, .path = mem_strdup(ctx, path), .is_remote = remote_is_path(path)};
     trl_result result = out->path ? TRL_OK : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
-        result = check_local_file(out);
+        result = check_file(out);
     }
     if (result == TRL_OK) {
-        result = open_dataset(out);
+        result = open_dataset(out, true);
     }
     if (result == TRL_OK) {
         struct gdal_catcher catcher;
@@ -206,6 +235,41 @@ trl_result raster_open(const trl_context *ctx, const char *path, struct raster *
         raster_finish(out);
     }
     return result;
+}
+
+trl_result raster_open_again(const struct raster *raster, struct raster *out)
+{
+    *out = *raster;
+    out->dataset = NULL;
+    out->path = mem_strdup(raster->ctx, raster->path);
+    const trl_result result = out->path ? open_dataset(out, false) : TRL_ERROR_MEMORY;
+    if (result != TRL_OK) {
+        raster_finish(out);
+    }
+    return result;
+}
+
+// The band, or its overview of exactly this size; NULL when there is none.
+static GDALRasterBandH find_level(const struct raster *raster, uint32_t band, uint32_t width,
+                                  uint32_t height)
+{
+    const GDALRasterBandH base = GDALGetRasterBand(raster->dataset, (int)band + 1);
+    if (width == raster->width && height == raster->height) {
+        return base;
+    }
+    for (int i = 0; i < GDALGetOverviewCount(base); i++) {
+        const GDALRasterBandH overview = GDALGetOverview(base, i);
+        if (overview && GDALGetRasterBandXSize(overview) == (int)width &&
+            GDALGetRasterBandYSize(overview) == (int)height) {
+            return overview;
+        }
+    }
+    return NULL;
+}
+
+bool raster_has_overview(const struct raster *raster, uint32_t width, uint32_t height)
+{
+    return find_level(raster, 0, width, height) != NULL;
 }
 
 void raster_finish(struct raster *raster)
@@ -225,7 +289,7 @@ void raster_finish(struct raster *raster)
 struct raster_window raster_window_whole(const struct raster *raster, uint32_t max_side)
 {
     struct raster_window window = {
-        0, 0, raster->width, raster->height, raster->width, raster->height};
+        0, 0, raster->width, raster->height, raster->width, raster->height, 0, 0};
     const uint32_t longest = raster->width > raster->height ? raster->width : raster->height;
     if (max_side > 0 && longest > max_side) {
         // A whole ratio where possible would keep every output pixel's area alike; the nearest size
@@ -240,15 +304,17 @@ struct raster_window raster_window_whole(const struct raster *raster, uint32_t m
 static trl_result check_window(const struct raster *raster, const struct raster_window *w,
                                uint32_t band)
 {
-    if (w->width == 0 || w->height == 0 || w->x >= raster->width || w->y >= raster->height ||
-        w->width > raster->width - w->x || w->height > raster->height - w->y || w->out_width == 0 ||
+    const uint32_t all_x = w->level_width ? w->level_width : raster->width;
+    const uint32_t all_y = w->level_width ? w->level_height : raster->height;
+    if (w->width == 0 || w->height == 0 || w->x >= all_x || w->y >= all_y ||
+        w->width > all_x - w->x || w->height > all_y - w->y || w->out_width == 0 ||
         w->out_height == 0 || w->out_width > w->width || w->out_height > w->height ||
         band >= raster->band_count) {
         return trl_fail(
             raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
             "%s: window %u,%u %u x %u to %u x %u of band %u is outside %u x %u, %u bands",
-            raster->path, w->x, w->y, w->width, w->height, w->out_width, w->out_height, band,
-            raster->width, raster->height, raster->band_count);
+            raster->path, w->x, w->y, w->width, w->height, w->out_width, w->out_height, band, all_x,
+            all_y, raster->band_count);
     }
     return TRL_OK;
 }
@@ -260,6 +326,44 @@ struct destination {
     int pixel_bytes;
 };
 
+// Which pixels of which band of the file a window is: an overview's, or a fraction of the file's.
+struct origin {
+    GDALRasterBandH band;
+    double x, y, width, height;
+};
+
+static struct origin find_origin(const struct raster *raster, const struct raster_window *w,
+                                 uint32_t band)
+{
+    const GDALRasterBandH exact =
+        w->level_width ? find_level(raster, band, w->level_width, w->level_height) : NULL;
+    const GDALRasterBandH file = GDALGetRasterBand(raster->dataset, (int)band + 1);
+    const bool is_fraction = w->level_width && !exact;
+    const double sx = is_fraction ? (double)raster->width / w->level_width : 1;
+    const double sy = is_fraction ? (double)raster->height / w->level_height : 1;
+    return (struct origin){exact ? exact : file, w->x * sx, w->y * sy, w->width * sx,
+                           w->height * sy};
+}
+
+static CPLErr read_origin(const struct origin *from, const struct raster_window *w,
+                          const struct destination *to)
+{
+    GDALRasterIOExtraArg extra;
+    INIT_RASTERIO_EXTRA_ARG(extra);
+    extra.eResampleAlg = GRIORA_Average;
+    extra.bFloatingPointWindowValidity = TRUE;
+    extra.dfXOff = from->x;
+    extra.dfYOff = from->y;
+    extra.dfXSize = from->width;
+    extra.dfYSize = from->height;
+    const int x = (int)from->x, y = (int)from->y;
+    const int right = (int)fmin(ceil(from->x + from->width), GDALGetRasterBandXSize(from->band));
+    const int bottom = (int)fmin(ceil(from->y + from->height), GDALGetRasterBandYSize(from->band));
+    return GDALRasterIOEx(from->band, GF_Read, x, y, right - x, bottom - y, to->pixels,
+                          (int)w->out_width, (int)w->out_height, to->type, to->pixel_bytes,
+                          (GSpacing)to->pixel_bytes * w->out_width, &extra);
+}
+
 static trl_result read_band(const struct raster *raster, const struct raster_window *w,
                             uint32_t band, const struct destination *to)
 {
@@ -267,18 +371,15 @@ static trl_result read_band(const struct raster *raster, const struct raster_win
     if (result != TRL_OK) {
         return result;
     }
-    GDALRasterIOExtraArg extra;
-    INIT_RASTERIO_EXTRA_ARG(extra);
-    extra.eResampleAlg = GRIORA_Average;
     struct gdal_catcher catcher;
     gdal_catch_begin(&catcher, raster->ctx);
+    remote_begin(raster->is_remote);
     // Uncompressed GeoTIFFs are read to where they shall be, not through a cache of blocks.
     CPLSetThreadLocalConfigOption("GTIFF_DIRECT_IO", "YES");
-    const CPLErr error = GDALRasterIOEx(
-        GDALGetRasterBand(raster->dataset, (int)band + 1), GF_Read, (int)w->x, (int)w->y,
-        (int)w->width, (int)w->height, to->pixels, (int)w->out_width, (int)w->out_height, to->type,
-        to->pixel_bytes, (GSpacing)to->pixel_bytes * w->out_width, &extra);
+    const struct origin from = find_origin(raster, w, band);
+    const CPLErr error = read_origin(&from, w, to);
     CPLSetThreadLocalConfigOption("GTIFF_DIRECT_IO", NULL);
+    remote_end(raster->is_remote);
     gdal_catch_end(&catcher);
     // Some drivers (libpng, libjpeg) report a file that ends early and still say that all is well.
     if (error != CE_None || catcher.message[0]) {

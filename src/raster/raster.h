@@ -25,7 +25,8 @@ enum raster_type {
 // twice to read from two.
 struct raster {
     const trl_context *ctx;
-    char *path;    // owned
+    char *path; // owned
+    bool is_remote;
     void *dataset; // GDALDatasetH, owned
     uint32_t width, height;
     uint32_t band_count;
@@ -38,19 +39,31 @@ struct raster {
     double nodata;
 };
 
-// Opens a local file. Nothing of its pixels is read yet.
+// Opens a local file, or one behind a URL where the context allows that. Nothing of its pixels is
+// read yet.
 // Returns TRL_OK; TRL_ERROR_IO (missing or unreadable); TRL_ERROR_INVALID (not a raster, not
-// equirectangular, beyond the bounds above); TRL_ERROR_MEMORY. *out is zeroed on failure.
+// equirectangular, beyond the bounds above, not allowed); TRL_ERROR_MEMORY. *out is zeroed on
+// failure.
 TRL_MUST_USE trl_result raster_open(const trl_context *ctx, const char *path, struct raster *out);
+
+// Opens the file of an open raster once more, so that another thread can read from it. What it
+// says of itself is not looked at again. Returns as raster_open.
+TRL_MUST_USE trl_result raster_open_again(const struct raster *raster, struct raster *out);
+
+// Whether there is an overview of this size in the file.
+bool raster_has_overview(const struct raster *raster, uint32_t width, uint32_t height);
 
 // Closes it. A zeroed raster is a no-op.
 void raster_finish(struct raster *raster);
 
 // A rectangle of pixels of the file, delivered at `out_width` x `out_height`: the same size, or
 // smaller by averaging (from overviews where the file has them). Must lie inside the raster.
+// With a level, pixels are counted in the whole raster reduced to that size: the overview of just
+// that size where there is one, else means of what the file has.
 struct raster_window {
     uint32_t x, y, width, height;
     uint32_t out_width, out_height;
+    uint32_t level_width, level_height; // 0: the file's own pixels
 };
 
 // The whole raster, no larger than `max_side` in either direction (0: as it is).

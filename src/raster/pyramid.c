@@ -1,0 +1,471 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "raster/pyramid.h"
+
+#include <math.h>
+#include <string.h>
+
+// Longest side of the finest level that is held whole. Where a file has no overviews a tile of the
+// level below it averages (PYRAMID_TILE * 2^level)^2 pixels: the larger, the fewer.
+enum { BASE_SIDE = 1024, BASE_SIDE_WITHOUT_OVERVIEWS = 4096, CHEAP_SIDE = 8192, STRIP_ROWS = 32 };
+
+size_t pyramid_texel_bytes(enum pyramid_format format)
+{
+    switch (format) {
+    case PYRAMID_INT16:
+        return 2;
+    case PYRAMID_FLOAT:
+    case PYRAMID_RGBA8:
+        return 4;
+    case PYRAMID_UINT8:
+        break;
+    }
+    return 1;
+}
+
+static uint32_t halve_up(uint32_t n)
+{
+    return (n + 1) / 2;
+}
+
+static uint32_t count_tiles(uint32_t texels)
+{
+    return (texels + PYRAMID_TILE - 1) / PYRAMID_TILE;
+}
+
+static uint32_t longest_side(const struct pyramid_level *level)
+{
+    return level->width > level->height ? level->width : level->height;
+}
+
+static void make_levels(struct pyramid *p)
+{
+    uint32_t width = p->raster.width, height = p->raster.height;
+    do {
+        p->levels[p->level_count++] =
+            (struct pyramid_level){width, height, count_tiles(width), count_tiles(height)};
+        width = halve_up(width);
+        height = halve_up(height);
+    } while (longest_side(&p->levels[p->level_count - 1]) > PYRAMID_TILE);
+}
+
+// Whether coarse tiles can be read without going through the whole file.
+static bool has_cheap_overview(const struct pyramid *p)
+{
+    bool is_cheap = longest_side(&p->levels[0]) <= CHEAP_SIDE;
+    for (uint32_t i = 1; i < p->level_count && !is_cheap; i++) {
+        is_cheap = longest_side(&p->levels[i]) <= CHEAP_SIDE &&
+                   raster_has_overview(&p->raster, p->levels[i].width, p->levels[i].height);
+    }
+    return is_cheap;
+}
+
+static trl_result choose_base(struct pyramid *p)
+{
+    const bool is_cheap = has_cheap_overview(p);
+    const double megabytes =
+        (double)p->raster.width * p->raster.height * (double)pyramid_texel_bytes(p->format) / 1e6;
+    if (!is_cheap && p->raster.is_remote) {
+        return trl_fail(p->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: %u x %u pixels without overviews: all %.0f MB would have to be "
+                        "fetched; make a cloud-optimised GeoTIFF of it (gdal_translate -of COG)",
+                        p->raster.path, p->raster.width, p->raster.height, megabytes);
+    }
+    if (!is_cheap) {
+        trl_log(p->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER,
+                "%s: %u x %u pixels without overviews: all %.0f MB are read now; "
+                "'gdaladdo -r average' on it would spare that",
+                p->raster.path, p->raster.width, p->raster.height, megabytes);
+    }
+    const uint32_t side = is_cheap ? BASE_SIDE : BASE_SIDE_WITHOUT_OVERVIEWS;
+    while (longest_side(&p->levels[p->base_level]) > side) {
+        p->base_level++;
+    }
+    return TRL_OK;
+}
+
+static trl_result read_window(const struct raster *raster, enum pyramid_format format,
+                              const struct raster_window *w, void *out)
+{
+    switch (format) {
+    case PYRAMID_INT16:
+        return raster_read_int16(raster, w, 0, out);
+    case PYRAMID_FLOAT:
+        return raster_read_float(raster, w, 0, out);
+    case PYRAMID_RGBA8:
+        return raster_read_rgba8(raster, w, out);
+    case PYRAMID_UINT8:
+        break;
+    }
+    return raster_read_uint8(raster, w, 0, out);
+}
+
+// In strips, so that it can be stopped.
+static trl_result read_base(struct pyramid *p)
+{
+    const struct pyramid_level *level = &p->levels[p->base_level];
+    uint8_t *texels = p->whole[p->base_level];
+    const size_t row_bytes = level->width * pyramid_texel_bytes(p->format);
+    trl_result result = TRL_OK;
+    for (uint32_t y = 0; y < level->height && result == TRL_OK; y += STRIP_ROWS) {
+        const uint32_t rows = level->height - y < STRIP_ROWS ? level->height - y : STRIP_ROWS;
+        const struct raster_window w = {
+            0, y, level->width, rows, level->width, rows, level->width, level->height};
+        result = trl_progress(p->ctx, "reading rasters", (double)y / level->height);
+        if (result == TRL_OK) {
+            result = read_window(&p->raster, p->format, &w, texels + y * row_bytes);
+        }
+    }
+    return result;
+}
+
+static uint32_t count_channels(enum pyramid_format format)
+{
+    return format == PYRAMID_RGBA8 ? 4 : 1;
+}
+
+static double get_value(const struct pyramid *p, const void *texels, size_t i)
+{
+    switch (p->format) {
+    case PYRAMID_INT16:
+        return ((const int16_t *)texels)[i];
+    case PYRAMID_FLOAT:
+        return (double)((const float *)texels)[i];
+    case PYRAMID_RGBA8:
+    case PYRAMID_UINT8:
+        break;
+    }
+    return ((const uint8_t *)texels)[i];
+}
+
+static void set_value(const struct pyramid *p, void *texels, size_t i, double value)
+{
+    switch (p->format) {
+    case PYRAMID_INT16:
+        ((int16_t *)texels)[i] = (int16_t)lrint(value);
+        return;
+    case PYRAMID_FLOAT:
+        ((float *)texels)[i] = (float)value;
+        return;
+    case PYRAMID_RGBA8:
+    case PYRAMID_UINT8:
+        break;
+    }
+    ((uint8_t *)texels)[i] = (uint8_t)lrint(value);
+}
+
+// How much a texel counts in a mean: nothing where it is void, and colours by their alpha.
+static double weigh_texel(const struct pyramid *p, const void *texels, size_t i)
+{
+    switch (p->format) {
+    case PYRAMID_INT16:
+        return p->raster.has_nodata && ((const int16_t *)texels)[i] == p->raster.nodata ? 0 : 1;
+    case PYRAMID_FLOAT:
+        return isnan(((const float *)texels)[i]) ? 0 : 1;
+    case PYRAMID_RGBA8:
+        return ((const uint8_t *)texels)[4 * i + 3] + 1e-3;
+    case PYRAMID_UINT8:
+        break;
+    }
+    return 1;
+}
+
+// The texels of a finer level below one of the next: a span along one axis.
+struct span {
+    uint32_t first, count;
+    double weights[3];
+};
+
+static struct span find_span(uint32_t fine, uint32_t coarse, uint32_t i)
+{
+    const double size = (double)fine / coarse; // from 1 to 2
+    const double from = i * size, to = (i + 1) * size;
+    struct span span = {.first = (uint32_t)floor(from + 1e-9)};
+    for (uint32_t k = span.first; k < fine && k < to - 1e-9 && span.count < 3; k++) {
+        span.weights[span.count++] = fmin(k + 1, to) - fmax(k, from);
+    }
+    return span;
+}
+
+static void reduce_texel(const struct pyramid *p, uint32_t level, uint32_t x, uint32_t y)
+{
+    const struct pyramid_level *fine = &p->levels[level - 1], *coarse = &p->levels[level];
+    const struct span across = find_span(fine->width, coarse->width, x);
+    const struct span down = find_span(fine->height, coarse->height, y);
+    const uint32_t channels = count_channels(p->format);
+    const void *from = p->whole[level - 1];
+    double sums[4] = {0}, weight = 0, area = 0, alpha = 0;
+    for (uint32_t j = 0; j < down.count; j++) {
+        for (uint32_t i = 0; i < across.count; i++) {
+            const size_t texel = (size_t)(down.first + j) * fine->width + across.first + i;
+            const double part = down.weights[j] * across.weights[i];
+            const double w = part * weigh_texel(p, from, texel);
+            for (uint32_t c = 0; c < channels && w > 0; c++) {
+                sums[c] += w * get_value(p, from, texel * channels + c);
+            }
+            alpha += channels == 4 ? part * get_value(p, from, texel * channels + 3) : 0;
+            weight += w;
+            area += part;
+        }
+    }
+    const size_t to = (size_t)y * coarse->width + x;
+    for (uint32_t c = 0; c < channels; c++) {
+        const double empty = p->format == PYRAMID_INT16 ? p->raster.nodata : (double)NAN;
+        const double mean = c == 3 ? alpha / area : weight > 0 ? sums[c] / weight : empty;
+        set_value(p, p->whole[level], to * channels + c, mean);
+    }
+}
+
+static trl_result hold_coarse(struct pyramid *p)
+{
+    const size_t texel = pyramid_texel_bytes(p->format);
+    trl_result result = TRL_OK;
+    for (uint32_t i = p->base_level; i < p->level_count && result == TRL_OK; i++) {
+        const size_t count = (size_t)p->levels[i].width * p->levels[i].height;
+        p->whole[i] = mem_alloc(p->ctx, count, texel);
+        p->bytes += count * texel;
+        result = p->whole[i] ? TRL_OK : TRL_ERROR_MEMORY;
+        if (result == TRL_OK && i == p->base_level) {
+            result = read_base(p);
+        }
+        for (uint32_t y = 0; y < p->levels[i].height && i > p->base_level && p->whole[i]; y++) {
+            for (uint32_t x = 0; x < p->levels[i].width; x++) {
+                reduce_texel(p, i, x, y);
+            }
+        }
+    }
+    return result;
+}
+
+trl_result pyramid_init(const trl_context *ctx, const struct pyramid_desc *desc,
+                        struct pyramid *out)
+{
+    *out = (struct pyramid){.ctx = ctx,
+                            .format = desc->format,
+                            .wraps = desc->wraps,
+                            .over_north = desc->over_north && desc->wraps,
+                            .over_south = desc->over_south && desc->wraps};
+    trl_result result = raster_open_again(desc->raster, &out->raster);
+    if (result == TRL_OK) {
+        make_levels(out);
+        result = choose_base(out);
+    }
+    if (result == TRL_OK) {
+        result = hold_coarse(out);
+    }
+    if (result != TRL_OK) {
+        pyramid_finish(out);
+    }
+    return result;
+}
+
+void pyramid_finish(struct pyramid *pyramid)
+{
+    for (uint32_t i = 0; i < pyramid->level_count; i++) {
+        mem_free(pyramid->ctx, pyramid->whole[i]);
+    }
+    raster_finish(&pyramid->raster);
+    *pyramid = (struct pyramid){0};
+}
+
+bool pyramid_has_tile(const struct pyramid *pyramid, const struct pyramid_tile *tile)
+{
+    return tile->level < pyramid->level_count && tile->x < pyramid->levels[tile->level].columns &&
+           tile->y < pyramid->levels[tile->level].rows;
+}
+
+trl_result pyramid_reader_init(const trl_context *ctx, const struct pyramid *pyramid,
+                               struct pyramid_reader *out)
+{
+    *out = (struct pyramid_reader){
+        .pyramid = pyramid,
+        .raster = {.ctx = ctx},
+        .patch = mem_alloc(ctx, PYRAMID_TEXELS, pyramid_texel_bytes(pyramid->format))};
+    return out->patch ? TRL_OK : TRL_ERROR_MEMORY;
+}
+
+void pyramid_reader_finish(struct pyramid_reader *reader)
+{
+    if (reader->pyramid) {
+        mem_free(reader->raster.ctx, reader->patch);
+        raster_finish(&reader->raster);
+    }
+    *reader = (struct pyramid_reader){0};
+}
+
+// A run of texels along one axis: `count` of the level's from `from` on go to the tile's from `to`
+// on; rows over a pole come in reverse, and from the opposite meridian.
+struct run {
+    int64_t from;
+    uint32_t count, to;
+    bool is_over_pole;
+};
+struct runs {
+    uint32_t count;
+    struct run run[3];
+};
+
+static void add_run(struct runs *runs, struct run run)
+{
+    if (run.count > 0) {
+        runs->run[runs->count++] = run;
+    }
+}
+
+// Of the PYRAMID_SIDE from `first` on (which may be negative), those in [0, size).
+static struct run clip_run(int64_t first, int64_t size)
+{
+    const int64_t from = first > 0 ? first : 0;
+    const int64_t end = first + PYRAMID_SIDE < size ? first + PYRAMID_SIDE : size;
+    return (struct run){from, (uint32_t)(end > from ? end - from : 0), (uint32_t)(from - first),
+                        false};
+}
+
+static struct runs find_rows(const struct pyramid *p, const struct pyramid_level *level, int64_t y)
+{
+    struct runs rows = {0};
+    const int64_t size = level->height;
+    const int64_t below = y + PYRAMID_SIDE - size;
+    if (y < 0 && p->over_north) {
+        add_run(&rows, (struct run){0, (uint32_t)-y, 0, true});
+    }
+    add_run(&rows, clip_run(y, size));
+    if (below > 0 && p->over_south) {
+        // A last tile may end outside: beyond its border nothing is seen.
+        const int64_t count = below < PYRAMID_BORDER ? below : PYRAMID_BORDER;
+        add_run(&rows, (struct run){size - count, (uint32_t)count, (uint32_t)(size - y), true});
+    }
+    return rows;
+}
+
+// Where columns wrap, a level that is read from the file is wider than a tile: two runs at most.
+static struct runs find_columns(const struct pyramid *p, const struct pyramid_level *level,
+                                int64_t x)
+{
+    struct runs columns = {0};
+    const int64_t size = level->width;
+    if (!p->wraps) {
+        add_run(&columns, clip_run(x, size));
+        return columns;
+    }
+    x = ((x % size) + size) % size;
+    const struct run first = clip_run(x, size);
+    add_run(&columns, first);
+    add_run(&columns, (struct run){0, PYRAMID_SIDE - first.count, first.count, false});
+    return columns;
+}
+
+// A place of the tile, filled from its nearest one that has been.
+static void spread_borders(const struct runs *rows, const struct runs *columns, size_t texel,
+                           uint8_t *out)
+{
+    const struct run *last = &columns->run[columns->count - 1];
+    const uint32_t left = columns->run[0].to, right = last->to + last->count;
+    const uint32_t top = rows->run[0].to;
+    const uint32_t bottom = rows->run[rows->count - 1].to + rows->run[rows->count - 1].count;
+    const size_t row_bytes = PYRAMID_SIDE * texel;
+    for (uint32_t y = top; y < bottom; y++) {
+        uint8_t *row = out + y * row_bytes;
+        for (uint32_t x = 0; x < left; x++) {
+            memcpy(row + x * texel, row + left * texel, texel);
+        }
+        for (uint32_t x = right; x < PYRAMID_SIDE; x++) {
+            memcpy(row + x * texel, row + (right - 1) * texel, texel);
+        }
+    }
+    for (uint32_t y = 0; y < top; y++) {
+        memcpy(out + y * row_bytes, out + top * row_bytes, row_bytes);
+    }
+    for (uint32_t y = bottom; y < PYRAMID_SIDE; y++) {
+        memcpy(out + y * row_bytes, out + (bottom - 1) * row_bytes, row_bytes);
+    }
+}
+
+// Puts what `patch` holds of the crossing of two runs where it belongs.
+static void place_patch(const struct run *rows, const struct run *columns, size_t texel,
+                        const void *patch, uint8_t *out)
+{
+    const size_t bytes = columns->count * texel;
+    for (uint32_t j = 0; j < rows->count; j++) {
+        const uint32_t from = rows->is_over_pole ? rows->count - 1 - j : j;
+        memcpy(out + ((size_t)(rows->to + j) * PYRAMID_SIDE + columns->to) * texel,
+               (const uint8_t *)patch + from * bytes, bytes);
+    }
+}
+
+static trl_result open_file(struct pyramid_reader *reader)
+{
+    if (reader->raster.dataset) {
+        return TRL_OK;
+    }
+    struct raster like = reader->pyramid->raster;
+    like.ctx = reader->raster.ctx;
+    const trl_result result = raster_open_again(&like, &reader->raster);
+    reader->raster.ctx = like.ctx;
+    return result;
+}
+
+static trl_result read_from_file(struct pyramid_reader *reader, const struct pyramid_tile *tile,
+                                 uint8_t *out)
+{
+    const struct pyramid *p = reader->pyramid;
+    const struct pyramid_level *level = &p->levels[tile->level];
+    const int64_t x = (int64_t)tile->x * PYRAMID_TILE - PYRAMID_BORDER;
+    const int64_t y = (int64_t)tile->y * PYRAMID_TILE - PYRAMID_BORDER;
+    const size_t texel = pyramid_texel_bytes(p->format);
+    const struct runs rows = find_rows(p, level, y);
+    trl_result result = open_file(reader);
+    struct runs columns = {0};
+    for (uint32_t j = 0; j < rows.count && result == TRL_OK; j++) {
+        const struct run *row = &rows.run[j];
+        columns = find_columns(p, level, x + (row->is_over_pole ? level->width / 2 : 0));
+        for (uint32_t i = 0; i < columns.count && result == TRL_OK; i++) {
+            const struct run *column = &columns.run[i];
+            const struct raster_window w = {
+                (uint32_t)column->from, (uint32_t)row->from, column->count, row->count,
+                column->count,          row->count,          level->width,  level->height};
+            result = read_window(&reader->raster, p->format, &w, reader->patch);
+            place_patch(row, column, texel, reader->patch, out);
+        }
+    }
+    if (result == TRL_OK) {
+        spread_borders(&rows, &columns, texel, out);
+    }
+    return result;
+}
+
+static int64_t clamp_index(int64_t i, int64_t size)
+{
+    return i < 0 ? 0 : i >= size ? size - 1 : i;
+}
+
+static void cut_from_whole(const struct pyramid *p, const struct pyramid_tile *tile, uint8_t *out)
+{
+    const struct pyramid_level *level = &p->levels[tile->level];
+    const uint8_t *whole = p->whole[tile->level];
+    const size_t texel = pyramid_texel_bytes(p->format);
+    const int64_t width = level->width, height = level->height;
+    for (int64_t j = 0; j < PYRAMID_SIDE; j++) {
+        int64_t y = (int64_t)tile->y * PYRAMID_TILE - PYRAMID_BORDER + j;
+        const bool is_over = (y < 0 && p->over_north) || (y >= height && p->over_south);
+        // Beyond its border a tile may end outside the raster: whatever stands there is not seen.
+        y = clamp_index(!is_over ? y : y < 0 ? -1 - y : 2 * height - 1 - y, height);
+        for (int64_t i = 0; i < PYRAMID_SIDE; i++) {
+            int64_t x = (int64_t)tile->x * PYRAMID_TILE - PYRAMID_BORDER + i;
+            x += is_over ? width / 2 : 0;
+            x = p->wraps ? ((x % width) + width) % width : clamp_index(x, width);
+            memcpy(out + (size_t)(j * PYRAMID_SIDE + i) * texel,
+                   whole + (size_t)(y * width + x) * texel, texel);
+        }
+    }
+}
+
+trl_result pyramid_read(struct pyramid_reader *reader, const struct pyramid_tile *tile,
+                        void *texels)
+{
+    if (tile->level >= reader->pyramid->base_level) {
+        cut_from_whole(reader->pyramid, tile, texels);
+        return TRL_OK;
+    }
+    return read_from_file(reader, tile, texels);
+}
