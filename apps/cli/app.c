@@ -36,6 +36,11 @@ enum exit_status app_init(struct app *app, const struct app_desc *desc)
     if (desc->is_uncached) {
         context.cache_dir = "";
     }
+    if (desc->data) {
+        context.allows_remote = desc->data->allows_remote;
+        context.raster_mb = desc->data->memory_mb.is_given ? (uint32_t)desc->data->memory_mb.value
+                                                           : context.raster_mb;
+    }
     const trl_result result = trl_context_create(&context, &app->ctx);
     if (result != TRL_OK) {
         return report_error(EXIT_FAILED, "the library cannot start: %s", trl_result_name(result));

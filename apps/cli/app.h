@@ -5,7 +5,7 @@
 // What every command that works with the library needs: a context that logs and shows progress, and
 // an end when the user presses Ctrl-C.
 
-#include "options.h"
+#include "data_options.h"
 #include "progress.h"
 #include <terrella/terrella.h>
 
@@ -19,8 +19,9 @@ struct app {
 // What differs between commands.
 struct app_desc {
     bool is_quiet;
-    bool is_uncached;  // neither reads nor keeps solved tables
-    bool holds_errors; // errors go to held_error instead of standard error
+    bool is_uncached;               // neither reads nor keeps solved tables
+    bool holds_errors;              // errors go to held_error instead of standard error
+    const struct data_choice *data; // NULL: none given
 };
 
 // Makes the context and arms Ctrl-C. `app` must stay where it is until app_finish. EXIT_FAILED is

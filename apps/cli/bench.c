@@ -53,6 +53,7 @@ struct bench_arguments {
     struct option_number runs;
     bool is_json;
     bool lists_benches;
+    struct data_choice data;
 };
 
 static const char about[] =
@@ -95,15 +96,18 @@ static enum options_outcome read_arguments(int argc, char **argv, struct bench_a
          .help = "Scene to measure with, all its views where pictures are drawn. Default: the "
                  "ones that ship with the program."},
     };
+    struct option data[DATA_OPTIONS];
+    data_options_make(&out->data, data);
     const struct option_section sections[] = {
-        {"Options", options, sizeof options / sizeof *options}};
+        {"Options", options, sizeof options / sizeof *options},
+        {DATA_OPTIONS_HEADING, data, DATA_OPTIONS}};
     const struct option_spec spec = {.command = "bench",
                                      .positional = "[NAME...]",
                                      .max_positionals = OPTIONS_MAX_POSITIONALS,
                                      .about = about,
                                      .examples = examples,
                                      .sections = sections,
-                                     .section_count = 1};
+                                     .section_count = 2};
     return options_read(&spec, argc, argv, &out->names);
 }
 
@@ -245,7 +249,7 @@ enum exit_status command_bench(int argc, char **argv)
         return EXIT_USAGE;
     }
     struct app app;
-    enum exit_status status = app_init(&app, &(struct app_desc){0});
+    enum exit_status status = app_init(&app, &(struct app_desc){.data = &arguments.data});
     struct bench_machine machine;
     if (status == EXIT_OK) {
         bench_machine_read(app.ctx, &machine);

@@ -358,7 +358,8 @@ enum exit_status command_render(int argc, char **argv)
         return EXIT_USAGE;
     }
     struct app app;
-    enum exit_status status = app_init(&app, &(struct app_desc){.is_quiet = arguments.is_quiet});
+    enum exit_status status = app_init(
+        &app, &(struct app_desc){.is_quiet = arguments.is_quiet, .data = &arguments.view.data});
     trl_scene *scene = NULL;
     if (status == EXIT_OK) {
         status = report_result(trl_scene_load(app.ctx, arguments.scene, &scene));

@@ -40,6 +40,7 @@ struct sky_arguments {
     struct rayleigh_choice rayleigh;
     const char *output; // NULL: standard output
     bool is_quiet;
+    struct data_choice data;
 };
 
 // In the order of trl_sky_model.
@@ -144,11 +145,14 @@ static enum options_outcome read_arguments(int argc, char **argv, struct sky_arg
          .target.flag = &out->is_quiet,
          .help = "No progress line."},
     };
+    struct option data[DATA_OPTIONS];
+    data_options_make(&out->data, data);
     const struct option_section sections[] = {
         {"Query", query, PART_COUNT + 1},
         {"Solver", solver, sizeof solver / sizeof *solver},
         {RAYLEIGH_OPTIONS_HEADING, rayleigh, RAYLEIGH_OPTIONS},
-        {"Result", result, sizeof result / sizeof *result}};
+        {"Result", result, sizeof result / sizeof *result},
+        {DATA_OPTIONS_HEADING, data, DATA_OPTIONS}};
     const struct option_spec spec = {.command = "sky",
                                      .positional = "SCENE",
                                      .min_positionals = 1,
@@ -398,7 +402,8 @@ enum exit_status command_sky(int argc, char **argv)
     }
     if (outcome == OPTIONS_READ && status == EXIT_OK) {
         struct app app;
-        status = app_init(&app, &(struct app_desc){.is_quiet = arguments.is_quiet});
+        status = app_init(
+            &app, &(struct app_desc){.is_quiet = arguments.is_quiet, .data = &arguments.data});
         status = status == EXIT_OK ? run(&app, &arguments) : status;
         app_finish(&app);
     }

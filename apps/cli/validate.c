@@ -17,6 +17,7 @@ struct validate_arguments {
     const char *html;
     struct option_number paths, seconds;
     bool is_json, is_quick, is_quiet;
+    struct data_choice data;
 };
 
 static const char about[] =
@@ -72,7 +73,10 @@ static enum options_outcome read_arguments(int argc, char **argv, struct validat
          .target.flag = &out->is_quiet,
          .help = "No progress line."},
     };
+    struct option data[DATA_OPTIONS];
+    data_options_make(&out->data, data);
     const struct option_section sections[] = {{"Work", work, sizeof work / sizeof *work},
+                                              {DATA_OPTIONS_HEADING, data, DATA_OPTIONS},
                                               {"Result", result, sizeof result / sizeof *result}};
     const struct option_spec spec = {.command = "validate",
                                      .positional = "[SCENE...]",
@@ -228,7 +232,8 @@ enum exit_status command_validate(int argc, char **argv)
         return report_error(EXIT_USAGE, "validate: --paths and --seconds cannot both be given");
     }
     struct app app;
-    enum exit_status status = app_init(&app, &(struct app_desc){.is_quiet = arguments.is_quiet});
+    enum exit_status status =
+        app_init(&app, &(struct app_desc){.is_quiet = arguments.is_quiet, .data = &arguments.data});
     if (status == EXIT_OK && arguments.html) {
         status = output_check_writable(arguments.html);
     }

@@ -127,7 +127,8 @@ enum exit_status command_view(int argc, char **argv)
         return status;
     }
     struct app app;
-    status = app_init(&app, &(struct app_desc){.is_quiet = arguments.is_quiet});
+    status = app_init(
+        &app, &(struct app_desc){.is_quiet = arguments.is_quiet, .data = &arguments.view.data});
     if (status == EXIT_OK) {
         status = open_window(&app, &arguments);
     }

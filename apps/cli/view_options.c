@@ -127,6 +127,8 @@ enum options_outcome view_command_read(const struct view_command *command, int a
     make_exposure(command->choice, exposure);
     struct option rayleigh[RAYLEIGH_OPTIONS];
     rayleigh_options_make(&command->choice->rayleigh, rayleigh);
+    struct option data[DATA_OPTIONS];
+    data_options_make(&command->choice->data, data);
     const struct option sky[] = {
         {.name = "sky-model",
          .kind = OPTION_CHOICE,
@@ -157,7 +159,8 @@ enum options_outcome view_command_read(const struct view_command *command, int a
         {"Exposure", exposure, EXPOSURE_OPTIONS},
         {"Ground", &mesher, 1},
         {"Sky", sky, sizeof sky / sizeof *sky},
-        {RAYLEIGH_OPTIONS_HEADING, rayleigh, RAYLEIGH_OPTIONS}};
+        {RAYLEIGH_OPTIONS_HEADING, rayleigh, RAYLEIGH_OPTIONS},
+        {DATA_OPTIONS_HEADING, data, DATA_OPTIONS}};
     const struct option_spec spec = {.command = command->name,
                                      .positional = "SCENE",
                                      .min_positionals = 1,

@@ -5,6 +5,7 @@
 // The options with which a picture's camera, sun and exposure are chosen: a view of the scene, and
 // what replaces parts of it. Shared by the commands that draw.
 
+#include "data_options.h"
 #include "mesher_option.h"
 #include "rayleigh_options.h"
 #include <terrella/renderer.h>
@@ -22,6 +23,7 @@ struct view_choice {
     int sky_model; // a trl_sky_model; TRL_SKY_MODEL_OF_SCENE when it was not given
     struct mesher_option mesher;
     struct rayleigh_choice rayleigh;
+    struct data_choice data;
 };
 
 struct view_choice view_choice_default(void);

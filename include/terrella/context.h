@@ -61,6 +61,8 @@ typedef struct trl_allocator {
     void *user;
 } trl_allocator;
 
+enum { TRL_CONTEXT_MIN_RASTER_MB = 64 }; ///< of trl_context_desc.raster_mb
+
 typedef struct trl_context_desc {
     uint32_t canary;          ///< set by trl_context_desc_default(); never touch
     trl_log_fn log;           ///< NULL: silent
@@ -77,6 +79,10 @@ typedef struct trl_context_desc {
     /// Whether scenes may name rasters behind a network ("https://…", "s3://…"); they are read in
     /// parts as far as views need them. Default false: such a scene is refused.
     bool allows_remote;
+    /// What rasters of a renderer or of a traced picture may take, in MB, at least
+    /// TRL_CONTEXT_MIN_RASTER_MB; default 3000. Rasters that need more together are held in tiles,
+    /// of which views load those that they show.
+    uint32_t raster_mb;
 } trl_context_desc;
 
 /// A desc with every default set. Threads: any.
@@ -84,7 +90,7 @@ TRL_API trl_context_desc trl_context_desc_default(void);
 
 /// Makes a context. The desc's strings are copied.
 /// @return TRL_OK; TRL_ERROR_INVALID (desc not from the default function, an allocator without all
-/// of its functions); TRL_ERROR_MEMORY
+/// of its functions, too little memory for rasters); TRL_ERROR_MEMORY
 TRL_API TRL_MUST_USE trl_result trl_context_create(const trl_context_desc *desc, trl_context **out);
 
 /// Frees *ctx and sets it to NULL.

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CONTEXT_CANARY = 0x54435831, ALIGNMENT = 64, MESSAGE_MAX = 2048 };
+enum { CONTEXT_CANARY = 0x54435831, ALIGNMENT = 64, MESSAGE_MAX = 2048, DEFAULT_RASTER_MB = 3000 };
 
 static void *c_allocate(void *user, size_t bytes)
 {
@@ -29,7 +29,7 @@ static void c_release(void *user, void *block)
 
 trl_context_desc trl_context_desc_default(void)
 {
-    return (trl_context_desc){.canary = CONTEXT_CANARY};
+    return (trl_context_desc){.canary = CONTEXT_CANARY, .raster_mb = DEFAULT_RASTER_MB};
 }
 
 // A folder that the user can choose.
@@ -73,7 +73,7 @@ trl_result trl_context_create(const trl_context_desc *desc, trl_context **out)
         return TRL_ERROR_INVALID;
     }
     *out = NULL;
-    if (!desc || desc->canary != CONTEXT_CANARY ||
+    if (!desc || desc->canary != CONTEXT_CANARY || desc->raster_mb < TRL_CONTEXT_MIN_RASTER_MB ||
         !(is_whole(&desc->allocator) || is_absent(&desc->allocator))) {
         return TRL_ERROR_INVALID;
     }

@@ -84,20 +84,20 @@ static trl_result choose_base(struct pyramid *p)
     return TRL_OK;
 }
 
-static trl_result read_window(const struct raster *raster, enum pyramid_format format,
+static trl_result read_window(const struct pyramid *p, const struct raster *level,
                               const struct raster_window *w, void *out)
 {
-    switch (format) {
+    switch (p->format) {
     case PYRAMID_INT16:
-        return raster_read_int16(raster, w, 0, out);
+        return raster_read_int16(level, w, 0, out);
     case PYRAMID_FLOAT:
-        return raster_read_float(raster, w, 0, out);
+        return raster_read_float(level, w, 0, out);
     case PYRAMID_RGBA8:
-        return raster_read_rgba8(raster, w, out);
+        return raster_read_rgba8(level, w, out);
     case PYRAMID_UINT8:
         break;
     }
-    return raster_read_uint8(raster, w, 0, out);
+    return raster_read_uint8(level, w, 0, out);
 }
 
 // In strips, so that it can be stopped.
@@ -106,14 +106,14 @@ static trl_result read_base(struct pyramid *p)
     const struct pyramid_level *level = &p->levels[p->base_level];
     uint8_t *texels = p->whole[p->base_level];
     const size_t row_bytes = level->width * pyramid_texel_bytes(p->format);
+    const struct raster reduced = raster_reduced(&p->raster, level->width, level->height);
     trl_result result = TRL_OK;
     for (uint32_t y = 0; y < level->height && result == TRL_OK; y += STRIP_ROWS) {
         const uint32_t rows = level->height - y < STRIP_ROWS ? level->height - y : STRIP_ROWS;
-        const struct raster_window w = {
-            0, y, level->width, rows, level->width, rows, level->width, level->height};
+        const struct raster_window w = {0, y, level->width, rows, level->width, rows};
         result = trl_progress(p->ctx, "reading rasters", (double)y / level->height);
         if (result == TRL_OK) {
-            result = read_window(&p->raster, p->format, &w, texels + y * row_bytes);
+            result = read_window(p, &reduced, &w, texels + y * row_bytes);
         }
     }
     return result;
@@ -415,16 +415,17 @@ static trl_result read_from_file(struct pyramid_reader *reader, const struct pyr
     const size_t texel = pyramid_texel_bytes(p->format);
     const struct runs rows = find_rows(p, level, y);
     trl_result result = open_file(reader);
+    const struct raster reduced = raster_reduced(&reader->raster, level->width, level->height);
     struct runs columns = {0};
     for (uint32_t j = 0; j < rows.count && result == TRL_OK; j++) {
         const struct run *row = &rows.run[j];
         columns = find_columns(p, level, x + (row->is_over_pole ? level->width / 2 : 0));
         for (uint32_t i = 0; i < columns.count && result == TRL_OK; i++) {
             const struct run *column = &columns.run[i];
-            const struct raster_window w = {
-                (uint32_t)column->from, (uint32_t)row->from, column->count, row->count,
-                column->count,          row->count,          level->width,  level->height};
-            result = read_window(&reader->raster, p->format, &w, reader->patch);
+            const struct raster_window w = {(uint32_t)column->from, (uint32_t)row->from,
+                                            column->count,          row->count,
+                                            column->count,          row->count};
+            result = read_window(p, &reduced, &w, reader->patch);
             place_patch(row, column, texel, reader->patch, out);
         }
     }

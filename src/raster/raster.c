@@ -120,8 +120,8 @@ static trl_result read_size_and_type(struct raster *raster)
         return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
                         "%s: %d bands; 1 to %d can be read", raster->path, bands, RASTER_MAX_BANDS);
     }
-    raster->width = (uint32_t)width;
-    raster->height = (uint32_t)height;
+    raster->width = raster->file_width = (uint32_t)width;
+    raster->height = raster->file_height = (uint32_t)height;
     raster->band_count = (uint32_t)bands;
     const GDALRasterBandH band = GDALGetRasterBand(raster->dataset, 1);
     const GDALDataType type = GDALGetRasterDataType(band);
@@ -254,7 +254,7 @@ static GDALRasterBandH find_level(const struct raster *raster, uint32_t band, ui
                                   uint32_t height)
 {
     const GDALRasterBandH base = GDALGetRasterBand(raster->dataset, (int)band + 1);
-    if (width == raster->width && height == raster->height) {
+    if (width == raster->file_width && height == raster->file_height) {
         return base;
     }
     for (int i = 0; i < GDALGetOverviewCount(base); i++) {
@@ -265,6 +265,16 @@ static GDALRasterBandH find_level(const struct raster *raster, uint32_t band, ui
         }
     }
     return NULL;
+}
+
+struct raster raster_reduced(const struct raster *raster, uint32_t width, uint32_t height)
+{
+    struct raster reduced = *raster;
+    reduced.width = width;
+    reduced.height = height;
+    reduced.pixel_width_deg *= (double)raster->width / width;
+    reduced.pixel_height_deg *= (double)raster->height / height;
+    return reduced;
 }
 
 bool raster_has_overview(const struct raster *raster, uint32_t width, uint32_t height)
@@ -289,7 +299,7 @@ void raster_finish(struct raster *raster)
 struct raster_window raster_window_whole(const struct raster *raster, uint32_t max_side)
 {
     struct raster_window window = {
-        0, 0, raster->width, raster->height, raster->width, raster->height, 0, 0};
+        0, 0, raster->width, raster->height, raster->width, raster->height};
     const uint32_t longest = raster->width > raster->height ? raster->width : raster->height;
     if (max_side > 0 && longest > max_side) {
         // A whole ratio where possible would keep every output pixel's area alike; the nearest size
@@ -304,17 +314,15 @@ struct raster_window raster_window_whole(const struct raster *raster, uint32_t m
 static trl_result check_window(const struct raster *raster, const struct raster_window *w,
                                uint32_t band)
 {
-    const uint32_t all_x = w->level_width ? w->level_width : raster->width;
-    const uint32_t all_y = w->level_width ? w->level_height : raster->height;
-    if (w->width == 0 || w->height == 0 || w->x >= all_x || w->y >= all_y ||
-        w->width > all_x - w->x || w->height > all_y - w->y || w->out_width == 0 ||
+    if (w->width == 0 || w->height == 0 || w->x >= raster->width || w->y >= raster->height ||
+        w->width > raster->width - w->x || w->height > raster->height - w->y || w->out_width == 0 ||
         w->out_height == 0 || w->out_width > w->width || w->out_height > w->height ||
         band >= raster->band_count) {
         return trl_fail(
             raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
             "%s: window %u,%u %u x %u to %u x %u of band %u is outside %u x %u, %u bands",
-            raster->path, w->x, w->y, w->width, w->height, w->out_width, w->out_height, band, all_x,
-            all_y, raster->band_count);
+            raster->path, w->x, w->y, w->width, w->height, w->out_width, w->out_height, band,
+            raster->width, raster->height, raster->band_count);
     }
     return TRL_OK;
 }
@@ -335,14 +343,11 @@ struct origin {
 static struct origin find_origin(const struct raster *raster, const struct raster_window *w,
                                  uint32_t band)
 {
-    const GDALRasterBandH exact =
-        w->level_width ? find_level(raster, band, w->level_width, w->level_height) : NULL;
-    const GDALRasterBandH file = GDALGetRasterBand(raster->dataset, (int)band + 1);
-    const bool is_fraction = w->level_width && !exact;
-    const double sx = is_fraction ? (double)raster->width / w->level_width : 1;
-    const double sy = is_fraction ? (double)raster->height / w->level_height : 1;
-    return (struct origin){exact ? exact : file, w->x * sx, w->y * sy, w->width * sx,
-                           w->height * sy};
+    const GDALRasterBandH exact = find_level(raster, band, raster->width, raster->height);
+    const double sx = exact ? 1 : (double)raster->file_width / raster->width;
+    const double sy = exact ? 1 : (double)raster->file_height / raster->height;
+    return (struct origin){exact ? exact : GDALGetRasterBand(raster->dataset, (int)band + 1),
+                           w->x * sx, w->y * sy, w->width * sx, w->height * sy};
 }
 
 static CPLErr read_origin(const struct origin *from, const struct raster_window *w,

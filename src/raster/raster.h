@@ -29,6 +29,7 @@ struct raster {
     bool is_remote;
     void *dataset; // GDALDatasetH, owned
     uint32_t width, height;
+    uint32_t file_width, file_height; // more than these where it is reduced
     uint32_t band_count;
     enum raster_type type; // of the first band's file type
     double west_deg, east_deg, south_deg,
@@ -50,6 +51,11 @@ TRL_MUST_USE trl_result raster_open(const trl_context *ctx, const char *path, st
 // says of itself is not looked at again. Returns as raster_open.
 TRL_MUST_USE trl_result raster_open_again(const struct raster *raster, struct raster *out);
 
+// The same raster seen as fewer pixels: reads give those of the overview of just that size where
+// the file has one, else means. Borrows from `raster`: not to be finished, and good no longer than
+// that.
+struct raster raster_reduced(const struct raster *raster, uint32_t width, uint32_t height);
+
 // Whether there is an overview of this size in the file.
 bool raster_has_overview(const struct raster *raster, uint32_t width, uint32_t height);
 
@@ -58,12 +64,9 @@ void raster_finish(struct raster *raster);
 
 // A rectangle of pixels of the file, delivered at `out_width` x `out_height`: the same size, or
 // smaller by averaging (from overviews where the file has them). Must lie inside the raster.
-// With a level, pixels are counted in the whole raster reduced to that size: the overview of just
-// that size where there is one, else means of what the file has.
 struct raster_window {
     uint32_t x, y, width, height;
     uint32_t out_width, out_height;
-    uint32_t level_width, level_height; // 0: the file's own pixels
 };
 
 // The whole raster, no larger than `max_side` in either direction (0: as it is).

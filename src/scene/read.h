@@ -67,6 +67,10 @@ TRL_MUST_USE trl_result scene_read_angles(const struct scene_node *object,
 // there, else in the data folder, whether it is there or not. Free *out with mem_free.
 TRL_MUST_USE trl_result scene_read_path(const struct scene_node *node, char **out);
 
+// The same of a raster, which may also be behind a network where the context allows that; such a
+// path stays as it is.
+TRL_MUST_USE trl_result scene_read_raster_path(const struct scene_node *node, char **out);
+
 // Is there a file?
 bool scene_path_exists(const char *path);
 

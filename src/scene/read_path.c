@@ -3,6 +3,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "raster/remote.h"
 #include "scene/read.h"
 
 bool scene_path_exists(const char *path)
@@ -56,5 +57,24 @@ trl_result scene_read_path(const struct scene_node *node, char **out)
         mem_free(ctx, *out);
         *out = join(ctx, trl_context_data_dir(ctx), file);
     }
+    return *out ? TRL_OK : TRL_ERROR_MEMORY;
+}
+
+trl_result scene_read_raster_path(const struct scene_node *node, char **out)
+{
+    *out = NULL;
+    const trl_context *ctx = node->doc->ctx;
+    const char *file = NULL;
+    const trl_result result = scene_node_string(node, &file);
+    if (result != TRL_OK || !remote_is_path(file)) {
+        return result == TRL_OK ? scene_read_path(node, out) : result;
+    }
+    if (!ctx->desc.allows_remote) {
+        return scene_node_fail(node,
+                               "is \"%.64s\", which is read over a network; that is done only "
+                               "where it is allowed (--allow-remote)",
+                               file);
+    }
+    *out = mem_strdup(ctx, file);
     return *out ? TRL_OK : TRL_ERROR_MEMORY;
 }

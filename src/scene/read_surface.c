@@ -65,7 +65,7 @@ static trl_result read_strings(const struct scene_node *node, struct layer *out)
     const trl_context *ctx = node->doc->ctx;
     const struct scene_node file = scene_node_member(node, kind_keys[out->kind]);
     const struct scene_node name = scene_node_member(node, "name");
-    trl_result result = scene_read_path(&file, &out->path);
+    trl_result result = scene_read_raster_path(&file, &out->path);
     const char *text = json_string_value(file.value);
     if (result == TRL_OK && !(out->file = mem_strdup(ctx, text))) {
         result = TRL_ERROR_MEMORY;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene.h"
 
+#include "raster/remote.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -296,5 +298,6 @@ const char *trl_scene_layer_path(const trl_scene *scene, size_t index)
 
 bool trl_scene_layer_is_present(const trl_scene *scene, size_t index)
 {
-    return index < scene->layer_count && scene_path_exists(scene->layers[index].path);
+    return index < scene->layer_count && (remote_is_path(scene->layers[index].path) ||
+                                          scene_path_exists(scene->layers[index].path));
 }

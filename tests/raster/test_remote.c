@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Rasters behind a network, served on the loopback by range_server.py, which counts: only when
+// allowed, only the named file, and only the parts that are needed. The argument is the server.
+#include "raster/gdal.h"
+#include "raster/remote.h"
+#include "raster/tile_cache.h"
+
+// cmocka wants these before its own header
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <cpl_string.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define HOST "127.0.0.1"
+static const char *server_path;
+
+struct fixture {
+    trl_context *ctx;
+    char folder[64];
+    int errors;
+    char last[2048];
+    pid_t server;
+    int to_server; // its standard input
+    int port;
+};
+
+static void keep_log(void *user, trl_log_level level, trl_log_item item, const char *message)
+{
+    struct fixture *f = user;
+    (void)item;
+    if (level == TRL_LOG_ERROR) {
+        f->errors++;
+        snprintf(f->last, sizeof f->last, "%s", message);
+    }
+}
+
+static void start_server(struct fixture *f)
+{
+    int in[2], out[2];
+    assert_int_equal(pipe(in) + pipe(out), 0);
+    f->server = fork();
+    assert_true(f->server >= 0);
+    if (f->server == 0) {
+        dup2(in[0], 0);
+        dup2(out[1], 1);
+        close(in[1]);
+        close(out[0]);
+        execlp("python3", "python3", server_path, f->folder, (char *)NULL);
+        _exit(127);
+    }
+    close(in[0]);
+    close(out[1]);
+    f->to_server = in[1];
+    FILE *told = fdopen(out[0], "r");
+    assert_int_equal(fscanf(told, "%d", &f->port), 1);
+    fclose(told);
+}
+
+static int set_up_allowed(void **state, bool allows_remote)
+{
+    struct fixture *f = calloc(1, sizeof *f);
+    snprintf(f->folder, sizeof f->folder, "/tmp/terrella-remote-XXXXXX");
+    assert_non_null(mkdtemp(f->folder));
+    trl_context_desc desc = trl_context_desc_default();
+    desc.log = keep_log;
+    desc.log_user = f;
+    desc.allows_remote = allows_remote;
+    assert_int_equal(trl_context_create(&desc, &f->ctx), TRL_OK);
+    setenv("no_proxy", HOST, 1);
+    gdal_register();
+    start_server(f);
+    *state = f;
+    return 0;
+}
+
+static int set_up(void **state)
+{
+    return set_up_allowed(state, true);
+}
+
+static int set_up_refusing(void **state)
+{
+    return set_up_allowed(state, false);
+}
+
+static int tear_down(void **state)
+{
+    struct fixture *f = *state;
+    close(f->to_server);
+    int status = 0;
+    waitpid(f->server, &status, 0);
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf '%s'", f->folder);
+    const int removed = system(command);
+    trl_context_destroy(&f->ctx);
+    free(f);
+    return removed;
+}
+
+// Noise, which no codec makes smaller: bytes served tell how many texels were.
+static void write_globe(const struct fixture *f, const char *name, int width, bool is_cloud)
+{
+    char path[128];
+    const int height = width / 2;
+    const GDALDatasetH memory =
+        GDALCreate(GDALGetDriverByName("MEM"), "", width, height, 1, GDT_Int16, NULL);
+    double transform[6] = {-180, 360.0 / width, 0, 90, 0, -360.0 / width};
+    assert_int_equal(GDALSetGeoTransform(memory, transform), CE_None);
+    const OGRSpatialReferenceH srs = OSRNewSpatialReference(NULL);
+    assert_int_equal(OSRImportFromEPSG(srs, 4326), OGRERR_NONE);
+    assert_int_equal(GDALSetSpatialRef(memory, srs), CE_None);
+    OSRDestroySpatialReference(srs);
+    int16_t *row = malloc((size_t)width * sizeof *row);
+    uint32_t seed = 1;
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            seed = seed * 1664525u + 1013904223u;
+            row[x] = (int16_t)(seed >> 16);
+        }
+        assert_int_equal(GDALRasterIO(GDALGetRasterBand(memory, 1), GF_Write, 0, y, width, 1, row,
+                                      width, 1, GDT_Int16, 0, 0),
+                         CE_None);
+    }
+    free(row);
+    snprintf(path, sizeof path, "%s/%s", f->folder, name);
+    char **options = is_cloud ? CSLAddString(NULL, "RESAMPLING=AVERAGE") : NULL;
+    const GDALDatasetH file = GDALCreateCopy(GDALGetDriverByName(is_cloud ? "COG" : "GTiff"), path,
+                                             memory, FALSE, options, NULL, NULL);
+    assert_non_null(file);
+    CSLDestroy(options);
+    GDALClose(file);
+    GDALClose(memory);
+}
+
+// Bytes served so far; every request must have been for one file.
+static size_t count_served(const struct fixture *f, const char *only)
+{
+    char path[128], line[512], wanted[128];
+    snprintf(path, sizeof path, "%s/served", f->folder);
+    snprintf(wanted, sizeof wanted, "/%s\n", only);
+    FILE *file = fopen(path, "r");
+    size_t total = 0;
+    while (file && fgets(line, sizeof line, file)) {
+        assert_string_equal(strchr(line, ' ') + 1, wanted);
+        total += strtoul(line, NULL, 10);
+    }
+    if (file) {
+        fclose(file);
+    }
+    return total;
+}
+
+static size_t file_bytes(const struct fixture *f, const char *name)
+{
+    char path[128];
+    struct stat info;
+    snprintf(path, sizeof path, "%s/%s", f->folder, name);
+    assert_int_equal(stat(path, &info), 0);
+    return (size_t)info.st_size;
+}
+
+static const char *url_of(const struct fixture *f, const char *name)
+{
+    static char url[128];
+    snprintf(url, sizeof url, "http://" HOST ":%d/%s", f->port, name);
+    return url;
+}
+
+static void nothing_is_fetched_unless_allowed(void **state)
+{
+    struct fixture *f = *state;
+    write_globe(f, "globe.tif", 512, true);
+    struct raster raster;
+    char vsi[160];
+    snprintf(vsi, sizeof vsi, "/vsicurl/%s", url_of(f, "globe.tif"));
+    const char *const paths[] = {url_of(f, "globe.tif"), vsi, "s3://bucket/globe.tif",
+                                 "/vsis3/bucket/globe.tif"};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        f->errors = 0;
+        assert_int_equal(raster_open(f->ctx, paths[i], &raster), TRL_ERROR_INVALID);
+        assert_int_equal(f->errors, 1);
+        assert_non_null(strstr(f->last, "local files only"));
+    }
+    assert_int_equal(count_served(f, ""), 0);
+}
+
+static void other_virtual_files_stay_refused(void **state)
+{
+    struct fixture *f = *state;
+    struct raster raster;
+    const char *const paths[] = {"/vsizip/a.zip/a.tif",  "/vsimem/a.tif",
+                                 "/vsistdin/",           "/vsicurl_streaming/http://" HOST "/a.tif",
+                                 "ftp://" HOST "/a.tif", "/vsisubfile/0_9,a.tif"};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        assert_int_equal(raster_open(f->ctx, paths[i], &raster), TRL_ERROR_INVALID);
+    }
+}
+
+static void open_remote(struct fixture *f, const char *name, struct pyramid *out)
+{
+    struct raster raster;
+    assert_int_equal(raster_open(f->ctx, url_of(f, name), &raster), TRL_OK);
+    assert_true(raster.is_remote && raster.is_whole_circle);
+    const struct pyramid_desc desc = {&raster, PYRAMID_INT16, true, true, true};
+    assert_int_equal(pyramid_init(f->ctx, &desc, out), TRL_OK);
+    raster_finish(&raster);
+}
+
+// A file of 22 MB, of which the whole globe and one place at full resolution are looked at.
+static void of_a_cloud_file_only_parts_are_fetched(void **state)
+{
+    struct fixture *f = *state;
+    write_globe(f, "cloud.tif", 4096, true);
+    const size_t size = file_bytes(f, "cloud.tif");
+    struct pyramid p;
+    open_remote(f, "cloud.tif", &p);
+    const size_t opened = count_served(f, "cloud.tif");
+    struct tile_cache *cache = NULL;
+    assert_int_equal(tile_cache_create(f->ctx, &(struct tile_cache_desc){1 << 24, 2}, &cache),
+                     TRL_OK);
+    uint32_t index = 0;
+    assert_int_equal(tile_cache_add(cache, &(struct tile_source){.pyramid = &p}, &index), TRL_OK);
+    tile_cache_begin(cache);
+    for (uint32_t level = 0; level < p.level_count; level++) {
+        const struct tile_key key = {index, {level, 4 >> level, 4 >> level}};
+        struct tile_view view;
+        (void)tile_cache_want(cache, &key, (float)level, &view);
+    }
+    assert_int_equal(tile_cache_wait(cache), TRL_OK);
+    assert_int_equal(tile_cache_stats(cache).loaded, p.level_count);
+    assert_int_equal(f->errors, 0);
+    const size_t all = count_served(f, "cloud.tif");
+    print_message("%zu bytes of %zu to open, %zu with one place at every level\n", opened, size,
+                  all);
+    // 1024 x 512 texels of 2 bytes are held from the start: a twentieth of the file.
+    assert_true(opened > 1024 * 512 * 2 && opened < size / 12);
+    // Blocks of 512 x 512: at most four of each of two levels beside that, another fifth.
+    assert_true(all < size / 3);
+    tile_cache_destroy(&cache);
+    pyramid_finish(&p);
+}
+
+// All of it would have to be fetched to show it from afar.
+static void a_large_file_without_overviews_is_refused(void **state)
+{
+    struct fixture *f = *state;
+    char path[128];
+    snprintf(path, sizeof path, "%s/plain.tif", f->folder);
+    char **options = CSLAddString(CSLAddString(NULL, "SPARSE_OK=YES"), "TILED=YES");
+    const GDALDatasetH file =
+        GDALCreate(GDALGetDriverByName("GTiff"), path, 16384, 8192, 1, GDT_Int16, options);
+    CSLDestroy(options);
+    GDALClose(file);
+    struct raster raster;
+    struct pyramid p;
+    assert_int_equal(raster_open(f->ctx, url_of(f, "plain.tif"), &raster), TRL_OK);
+    const struct pyramid_desc desc = {&raster, PYRAMID_INT16, true, true, true};
+    assert_int_equal(pyramid_init(f->ctx, &desc, &p), TRL_ERROR_INVALID);
+    assert_int_equal(f->errors, 1);
+    assert_non_null(strstr(f->last, "gdal_translate -of COG"));
+    raster_finish(&raster);
+}
+
+static void what_is_not_there_is_one_error(void **state)
+{
+    struct fixture *f = *state;
+    struct raster raster;
+    assert_int_equal(raster_open(f->ctx, url_of(f, "missing.tif"), &raster), TRL_ERROR_IO);
+    assert_int_equal(f->errors, 1);
+    assert_non_null(strstr(f->last, "missing.tif"));
+    assert_int_equal(count_served(f, "missing.tif"), 0);
+    // Nobody listens at this port.
+    f->errors = 0;
+    assert_int_equal(raster_open(f->ctx, "http://" HOST ":1/a.tif", &raster), TRL_ERROR_IO);
+    assert_int_equal(f->errors, 1);
+}
+
+int main(int argc, char **argv)
+{
+    server_path = argc > 1 ? argv[1] : "range_server.py";
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(nothing_is_fetched_unless_allowed, set_up_refusing,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(other_virtual_files_stay_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(of_a_cloud_file_only_parts_are_fetched, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_large_file_without_overviews_is_refused, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(what_is_not_there_is_one_error, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
