@@ -53,13 +53,31 @@ TRL_API const char *trl_air_name(trl_air air);
 /// How the mesh of the ground is made. All draw the same surface; they differ in where triangles
 /// are, in time and in memory (docs/bench.md, terrain-error).
 typedef enum trl_mesher {
-    TRL_MESHER_HEMISPHERE ///< "hemisphere": a grid that faces the camera, seen from the planet's
-                          ///< centre (Michelic 2019)
+    TRL_MESHER_HEMISPHERE, ///< "hemisphere": a grid that faces the camera, seen from the planet's
+                           ///< centre (Michelic 2019)
+    TRL_MESHER_PROJECTIVE  ///< "projective": a grid of rays around the camera, laid on the planet
+                           ///< anew in every frame (planetary projective grid mapping)
 } trl_mesher;
 
 /// The word for it on the command line; NULL for what is none, as for the first number behind the
 /// last mesher. Threads: any.
 TRL_API const char *trl_mesher_name(trl_mesher mesher);
+
+/// How the projective mesher places the rows of its grid, which go round the point below the
+/// camera.
+typedef enum trl_projective_rows {
+    TRL_PROJECTIVE_ROWS_RELIEF, ///< "relief": close where ground that is in the picture bends
+    TRL_PROJECTIVE_ROWS_SPHERES ///< "spheres": by rays that meet two reference spheres, as the
+                                ///< paper has it; made for views from above
+} trl_projective_rows;
+
+enum { TRL_PROJECTIVE_MIN_SIDE = 16, TRL_PROJECTIVE_MAX_SIDE = 2048 };
+
+/// The grid of TRL_MESHER_PROJECTIVE, of any size beside the picture's.
+typedef struct trl_projective_desc {
+    uint32_t columns, rows; ///< even, [TRL_PROJECTIVE_MIN_SIDE, TRL_PROJECTIVE_MAX_SIDE]
+    trl_projective_rows placing;
+} trl_projective_desc;
 
 /// trl_renderer_desc.sky_model: what the scene asks for.
 #define TRL_SKY_MODEL_OF_SCENE (-1)
@@ -75,6 +93,7 @@ typedef struct trl_renderer_desc {
     int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
     trl_air air;            ///< default TRL_AIR_MARCH
     trl_mesher mesher;      ///< default TRL_MESHER_HEMISPHERE
+    trl_projective_desc projective;    ///< of TRL_MESHER_PROJECTIVE; default 448 x 240, by relief
     const trl_rayleigh_desc *rayleigh; ///< for TRL_SKY_RAYLEIGH; copied; NULL (default): as the
                                        ///< scene asks
     bool measures_time; ///< each draw waits for the GPU and fills trl_renderer_timings; default
@@ -226,6 +245,13 @@ TRL_API TRL_MUST_USE trl_result trl_renderer_set_mesher(trl_renderer *renderer, 
 
 /// The mesher that frames are drawn with.
 TRL_API trl_mesher trl_renderer_mesher(const trl_renderer *renderer);
+
+/// Makes the grid of TRL_MESHER_PROJECTIVE anew, with another size or other rows; does not go over
+/// to that mesher.
+/// @return TRL_OK; TRL_ERROR_INVALID (a side or a placing that cannot be); TRL_ERROR_MEMORY;
+///         TRL_ERROR_GPU; on failure the old one stays
+TRL_API TRL_MUST_USE trl_result trl_renderer_set_projective(trl_renderer *renderer,
+                                                            const trl_projective_desc *desc);
 
 /// What the mesh of the last frame took.
 typedef struct trl_mesh_stats {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Vertices of the hemisphere mesh, read from the texture that grid.frag drew.
+// Vertices of the hemisphere and projective meshes, read from the texture that grid.frag or
+// projective_grid.frag drew.
 #include "terrain/depth.glsl"
 
 uniform highp sampler2D u_positions;

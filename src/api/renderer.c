@@ -5,6 +5,7 @@
 #include "frame/frame.h"
 #include "scatter/atmosphere.h"
 #include "scatter/medium_edit.h"
+#include "terrain/projective.h"
 #include <terrella/renderer.h>
 
 #include <math.h>
@@ -23,7 +24,8 @@ trl_renderer_desc trl_renderer_desc_default(void)
                                .wavelengths = 16,
                                .sky_model = TRL_SKY_MODEL_OF_SCENE,
                                .air = TRL_AIR_MARCH,
-                               .mesher = TRL_MESHER_HEMISPHERE};
+                               .mesher = TRL_MESHER_HEMISPHERE,
+                               .projective = projective_desc_default()};
 }
 
 static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, trl_renderer **out)
@@ -43,7 +45,7 @@ static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, 
                                                                : (trl_sky_model)desc->sky_model,
         .rayleigh = desc->rayleigh ? *desc->rayleigh : desc->scene->rayleigh,
         .air = desc->air,
-        .mesher = desc->mesher,
+        .meshing = {desc->mesher, desc->projective},
         .measures_time = desc->measures_time};
     const trl_result result = frame_init(&frame, &renderer->frame);
     if (result != TRL_OK) {
@@ -70,6 +72,7 @@ trl_result trl_renderer_create(trl_context *ctx, const trl_renderer_desc *desc, 
     TRL_REQUIRE(ctx, desc->max_orders <= TRL_SKY_MAX_ORDERS);
     TRL_REQUIRE(ctx, trl_air_name(desc->air) != NULL);
     TRL_REQUIRE(ctx, trl_mesher_name(desc->mesher) != NULL);
+    TRL_REQUIRE(ctx, projective_desc_is_good(&desc->projective));
     const trl_result result = desc->rayleigh ? check_rayleigh(ctx, desc->rayleigh) : TRL_OK;
     return result == TRL_OK ? create_frame(ctx, desc, out) : result;
 }
@@ -301,6 +304,17 @@ trl_result trl_renderer_set_mesher(trl_renderer *renderer, trl_mesher mesher)
     TRL_REQUIRE(renderer->ctx, trl_mesher_name(mesher) != NULL);
     const trl_result result = gpu_make_current(renderer->frame.gpu);
     return result == TRL_OK ? ground_set_mesher(&renderer->frame.ground, mesher) : result;
+}
+
+trl_result trl_renderer_set_projective(trl_renderer *renderer, const trl_projective_desc *desc)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx, desc != NULL);
+    TRL_REQUIRE(renderer->ctx, projective_desc_is_good(desc)); // sides even and in range
+    const trl_result result = gpu_make_current(renderer->frame.gpu);
+    return result == TRL_OK ? ground_set_projective(&renderer->frame.ground, desc) : result;
 }
 
 trl_mesher trl_renderer_mesher(const trl_renderer *renderer)

@@ -141,7 +141,7 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
         result = open_gpu(desc, &out->gpu);
     }
     if (result == TRL_OK) {
-        result = ground_init(out->gpu, desc->scene, desc->mesher, &out->ground);
+        result = ground_init(out->gpu, desc->scene, &desc->meshing, &out->ground);
     }
     if (result == TRL_OK) {
         result = frame_set_sky_model(out, desc->sky_model);

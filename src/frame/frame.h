@@ -33,7 +33,7 @@ struct frame_desc {
     uint32_t wavelengths, orders; // see struct sky_desc
     trl_sky_model sky_model;
     trl_air air;
-    trl_mesher mesher;
+    struct ground_meshing meshing;
     trl_rayleigh_desc rayleigh; // checked
     bool measures_time;
 };

@@ -3,6 +3,7 @@
 #include "frame/ground.h"
 
 #include "frame/daylight.h"
+#include "terrain/projective.h"
 
 #include <math.h>
 
@@ -51,12 +52,31 @@ static trl_result load_surface(struct gpu *gpu, const struct trl_scene *scene,
     return surface_init(gpu, &desc, surface);
 }
 
+static trl_result make_mesher(const struct ground *ground, trl_mesher mesher, struct mesher **out)
+{
+    return mesher == TRL_MESHER_PROJECTIVE
+               ? projective_create(&ground->surface, &ground->projective, out)
+               : mesher_create(&ground->surface, mesher, out);
+}
+
 trl_result ground_set_mesher(struct ground *ground, trl_mesher mesher)
 {
     struct mesher **slot = &ground->meshers[mesher];
-    const trl_result result =
-        ground->is_bare || *slot ? TRL_OK : mesher_create(&ground->surface, mesher, slot);
+    const trl_result result = ground->is_bare || *slot ? TRL_OK : make_mesher(ground, mesher, slot);
     ground->mesher = result == TRL_OK ? mesher : ground->mesher;
+    return result;
+}
+
+trl_result ground_set_projective(struct ground *ground, const trl_projective_desc *desc)
+{
+    struct mesher **slot = &ground->meshers[TRL_MESHER_PROJECTIVE];
+    struct mesher *made = NULL;
+    const trl_result result = *slot ? projective_create(&ground->surface, desc, &made) : TRL_OK;
+    if (result == TRL_OK) {
+        mesher_destroy(slot);
+        *slot = made;
+        ground->projective = *desc;
+    }
     return result;
 }
 
@@ -90,11 +110,12 @@ double ground_find_lights_cd_m2(const struct trl_scene *scene)
     return brightest_cd_m2;
 }
 
-trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene, trl_mesher mesher,
-                       struct ground *out)
+trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene,
+                       const struct ground_meshing *meshing, struct ground *out)
 {
     *out = (struct ground){.gpu = gpu,
-                           .mesher = mesher,
+                           .mesher = meshing->mesher,
+                           .projective = meshing->projective,
                            .lights_cd_m2 = ground_find_lights_cd_m2(scene),
                            .region_m = 2 * medium_scattering_height(&scene->medium)};
     trl_result result = load_surface(gpu, scene, &out->surface);
@@ -198,10 +219,11 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
     if (ground->is_bare) {
         return TRL_OK;
     }
-    frame_clock_part(clock, "mesh");
+    frame_clock_part(clock, "vertices");
     struct mesher *mesher = ground->meshers[ground->mesher];
     trl_result result = mesher_update(mesher, camera);
     if (result == TRL_OK) {
+        frame_clock_part(clock, "mesh");
         result = mesher_draw(mesher, &ground->mesh_target);
     }
     if (result == TRL_OK) {

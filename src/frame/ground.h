@@ -27,6 +27,7 @@ struct ground {
     double region_m;     // width of the averages in `region`
     struct surface surface;
     trl_mesher mesher;                        // that frames are drawn with
+    trl_projective_desc projective;           // options of that mesher
     struct mesher *meshers[MESHER_MAX_KINDS]; // by trl_mesher; made when first asked for; none when
                                               // bare, as the two passes below
     struct terrain_shadow shadow;
@@ -42,13 +43,23 @@ void ground_describe(const struct trl_scene *scene,
 // Luminance of white in the lights of a scene: that of the brightest layer.
 double ground_find_lights_cd_m2(const struct trl_scene *scene);
 
+struct ground_meshing {
+    trl_mesher mesher;
+    trl_projective_desc projective;
+};
+
 TRL_MUST_USE trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene,
-                                    trl_mesher mesher, struct ground *out);
+                                    const struct ground_meshing *meshing, struct ground *out);
 void ground_finish(struct ground *ground);
 
 // Draws with that mesher from now on; makes it when it is asked for first. A failure leaves the old
 // one.
 TRL_MUST_USE trl_result ground_set_mesher(struct ground *ground, trl_mesher mesher);
+
+// Makes the projective mesher with other options, now if it is there already. A failure leaves the
+// old one.
+TRL_MUST_USE trl_result ground_set_projective(struct ground *ground,
+                                              const trl_projective_desc *desc);
 
 // Of the mesher that frames are drawn with; zeroed when bare.
 struct mesher_stats ground_mesher_stats(const struct ground *ground);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "terrain/mesher.h"
 
+#include "terrain/projective.h"
+
 struct kind {
     const char *name;
     trl_result (*create)(const struct surface *surface, struct mesher **out);
@@ -9,6 +11,7 @@ struct kind {
 
 static const struct kind KINDS[MESHER_MAX_KINDS] = {
     [TRL_MESHER_HEMISPHERE] = {"hemisphere", hemisphere_create},
+    [TRL_MESHER_PROJECTIVE] = {"projective", projective_create_default},
 };
 
 const char *mesher_name(trl_mesher kind)
