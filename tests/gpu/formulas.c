@@ -7,6 +7,7 @@
 #include "shared/penumbra.glsl"
 #include "shared/phase.glsl"
 #include "shared/profile.glsl"
+#include "shared/projective.glsl"
 #include "shared/sky_map.glsl"
 
 #include <math.h>
@@ -187,6 +188,44 @@ static void eclipses_agree(void **state)
     gpu_program_finish(&program);
 }
 
+// From a metre above the Earth to a hundred radii, short of the tangent, where a float has the root
+// of its rounding only.
+static void projective_rays_agree(void **state)
+{
+    struct fixture *f = *state;
+    const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+                                          .fragment = "projective.frag"};
+    struct gpu_program program;
+    assert_int_equal(gpu_program_init(f->gpu, &desc, &program), TRL_OK);
+    const float part[] = {0.01f, 0.3f, 0.6f, 0.9f, 0.99f};
+    const float altitude[] = {1, 100, 30000, 4e5f, 6.371e6f, 6.371e8f};
+    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
+        for (size_t j = 0; j < sizeof altitude / sizeof altitude[0]; j++) {
+            const float ray[4] = {part[i], altitude[j], 6.371e6f, 8848};
+            gpu_program_set_vec4(&program, "u_ray", ray);
+            const struct texel got = draw(f, &program);
+            const double excess = projective_excess((double)altitude[j], 6.371e6);
+            const double tangent = projective_tangent(excess);
+            const double omega = (double)part[i] * tangent;
+            const double reach = projective_reach(excess, 6.371e6, 8848);
+            const double wanted[4] = {
+                projective_normal_angle(omega, tangent, excess),
+                projective_distance(omega, tangent, excess, (double)altitude[j]),
+                projective_blended_angle(omega, excess, reach, 0.5),
+                projective_ring((double)part[i], 0.001, 7)};
+            for (int c = 0; c < 4; c++) {
+                // Mesa's atan is a polynomial that is off by 2e-5; each angle has two or three.
+                const double error = fabs((double)got.rgba[c] - wanted[c]);
+                if (!(error <= 1e-4 * fabs(wanted[c]))) {
+                    fail_msg("number %d at %g of the tangent, %g m: GPU %.9g, C %.17g", c,
+                             (double)part[i], (double)altitude[j], (double)got.rgba[c], wanted[c]);
+                }
+            }
+        }
+    }
+    gpu_program_finish(&program);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -196,6 +235,7 @@ int main(void)
         cmocka_unit_test(maps_from_outside_agree),
         cmocka_unit_test(shadows_agree),
         cmocka_unit_test(eclipses_agree),
+        cmocka_unit_test(projective_rays_agree),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }
