@@ -312,6 +312,7 @@ trl_result compare_write(const struct compare_desc *desc, FILE *summary)
     with.sky_model = (int)desc->models.models[0];
     with.rayleigh = &desc->rayleigh;
     with.mesher = desc->mesher;
+    with.projective = desc->projective;
     trl_renderer *renderer = NULL;
     struct compared all = {0};
     trl_result result = trl_renderer_create(desc->app->ctx, &with, &renderer);

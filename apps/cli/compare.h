@@ -27,6 +27,7 @@ struct compare_desc {
     struct compare_models models;
     trl_rayleigh_desc rayleigh;
     trl_mesher mesher;
+    trl_projective_desc projective;
     struct number_size size; // of each model's picture
     uint32_t samples;
     const char *output;

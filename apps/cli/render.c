@@ -244,6 +244,7 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     desc.sky_model = arguments->view.sky_model;
     desc.air = (trl_air)arguments->view.air;
     desc.mesher = mesher_option_get(&arguments->view.mesher);
+    desc.projective = mesher_option_get_projective(&arguments->view.mesher);
     const trl_rayleigh_desc rayleigh = rayleigh_choice_resolve(&arguments->view.rayleigh, scene);
     desc.rayleigh = &rayleigh;
     desc.spectrum = (trl_spectrum)arguments->spectrum;
@@ -292,6 +293,7 @@ static struct compare_desc make_comparison(struct app *app, const trl_scene *sce
         .size = arguments->size,
         .rayleigh = rayleigh_choice_resolve(&arguments->view.rayleigh, scene),
         .mesher = mesher_option_get(&arguments->view.mesher),
+        .projective = mesher_option_get_projective(&arguments->view.mesher),
         .samples = sample_count(arguments),
         .output = arguments->output,
         .is_exr = strcasecmp(output_suffix(arguments->output), "exr") == 0};
@@ -341,7 +343,8 @@ static enum exit_status check_arguments(const struct render_arguments *arguments
         return report_error(EXIT_USAGE, "render: --reference cannot be given with --compare, "
                                         "--samples, --timings, --sky-model or --mesher");
     }
-    const enum exit_status status = rayleigh_choice_check(&arguments->view.rayleigh);
+    enum exit_status status = mesher_option_check(&arguments->view.mesher, "render");
+    status = status == EXIT_OK ? rayleigh_choice_check(&arguments->view.rayleigh) : status;
     return status == EXIT_OK ? traced_check(&arguments->traced) : status;
 }
 

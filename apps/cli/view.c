@@ -93,6 +93,8 @@ static enum exit_status open_window(struct app *app, const struct view_arguments
                                    .sky_model = arguments->view.sky_model,
                                    .air = (trl_air)arguments->view.air,
                                    .mesher = mesher_option_get(&arguments->view.mesher),
+                                   .projective =
+                                       mesher_option_get_projective(&arguments->view.mesher),
                                    .rayleigh = &rayleigh,
                                    .view = view,
                                    .width = arguments->size.width,
@@ -120,6 +122,9 @@ enum exit_status command_view(int argc, char **argv)
         return outcome == OPTIONS_HELP ? EXIT_OK : EXIT_USAGE;
     }
     enum exit_status status = check_screenshot(arguments.screenshot);
+    if (status == EXIT_OK) {
+        status = mesher_option_check(&arguments.view.mesher, "view");
+    }
     if (status == EXIT_OK) {
         status = rayleigh_choice_check(&arguments.view.rayleigh);
     }

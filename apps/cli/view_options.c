@@ -148,16 +148,18 @@ enum options_outcome view_command_read(const struct view_command *command, int a
              "Of the spectral sky: march (terrain casts shadows into the air) or table (it does "
              "not; faster). Default: march."},
     };
-    const struct option mesher =
+    const struct option ground[] = {
         mesher_option_make(&command->choice->mesher,
                            "How the mesh of the ground is made: hemisphere (a grid that faces the "
-                           "camera, Michelic 2019). Default: hemisphere.");
+                           "camera, Michelic 2019) or projective (rays around the camera, laid on "
+                           "the planet in every frame, PGM). Default: hemisphere."),
+        mesher_option_make_grid(&command->choice->mesher)};
     const struct option_section sections[] = {
         command->own,
         {"Camera", camera, CAMERA_OPTIONS},
         {"Sun", sun, SUN_OPTIONS},
         {"Exposure", exposure, EXPOSURE_OPTIONS},
-        {"Ground", &mesher, 1},
+        {"Ground", ground, sizeof ground / sizeof *ground},
         {"Sky", sky, sizeof sky / sizeof *sky},
         {RAYLEIGH_OPTIONS_HEADING, rayleigh, RAYLEIGH_OPTIONS},
         {DATA_OPTIONS_HEADING, data, DATA_OPTIONS}};

@@ -31,6 +31,7 @@ struct viewer_desc {
     int sky_model;          // as in trl_renderer_desc
     trl_air air;            // to begin with
     trl_mesher mesher;      // to begin with
+    trl_projective_desc projective;    // of that mesher
     const trl_rayleigh_desc *rayleigh; // as in trl_renderer_desc
     trl_view view;                     // where it begins
     uint32_t width, height;            // of the window

@@ -226,6 +226,7 @@ static void fly_scene(struct viewer *viewer)
     desc.sky_model = viewer->desc->sky_model;
     desc.air = viewer->desc->air;
     desc.mesher = viewer->desc->mesher;
+    desc.projective = viewer->desc->projective;
     desc.rayleigh = viewer->desc->rayleigh;
     viewer->result = trl_renderer_create(viewer->desc->ctx, &desc, &viewer->renderer);
     if (viewer->result != TRL_OK || !controls_resolve(viewer, &viewer->desc->view, &viewer->view)) {

@@ -140,6 +140,10 @@ class Traced(ProgramTest):
         self.write_scene(add_layers({"name": "h", "elevation": "h.tif", "scale": 10}))  # under the same name
         self.expect_success(*self.words, "-o", "hills.exr")
         self.assertTrue((self.work / "hills.exr").read_bytes() != (self.work / "plain.exr").read_bytes())
+        projective = ["--mesher", "projective", "--grid"]
+        self.expect_success(*self.words[:4], *projective, "64x48", "-o", "small.exr")
+        self.expect_success(*self.words[:4], *projective, "640x480", "-o", "large.exr")
+        self.assertTrue((self.work / "small.exr").read_bytes() != (self.work / "large.exr").read_bytes())
         (self.data / "h.tif").write_bytes(b"not a picture at all")
         self.expect_failure(1, self.words, ["h.tif"])
 
@@ -147,6 +151,9 @@ class Traced(ProgramTest):
         for more in [["--samples", "2"], ["--timings"], ["--mesher", "hemisphere"], ["--sky-model", "single"],
                      ["--compare", "spectral,single"]]:
             self.expect_failure(2, self.words + more, ["--reference", more[0]])
+        for grid in ["15x16", "16x9999", "31x32"]:
+            self.expect_failure(2, ["render", self.scene, "--mesher", "projective", "--grid", grid], ["--grid", grid])
+        self.expect_failure(2, ["render", self.scene, "--mesher", "hemisphere", "--grid", "64x64"], ["--grid", "projective"])
         for alone in [["--paths", "9"], ["--seed", "1"], ["--error", "e.exr"]]:
             self.expect_failure(2, ["render", self.scene] + alone, ["--reference", alone[0]])
         for other in [["--sky-model", "single"], ["--compare", "spectral,single"]]:

@@ -117,6 +117,30 @@ static void meshers_have_names_and_others_are_refused(void **state)
                      TRL_OK);
 }
 
+static void projective_grids_that_cannot_be_are_refused(void **state)
+{
+    struct setup *s = *state;
+    const trl_projective_desc good = trl_renderer_desc_default().projective;
+    trl_projective_desc bad = good;
+    bad.columns = TRL_PROJECTIVE_MAX_SIDE + 2;
+    expect_invalid(s, trl_renderer_set_projective(s->renderer, &bad));
+    bad.columns = 101; // odd
+    expect_invalid(s, trl_renderer_set_projective(s->renderer, &bad));
+    bad = good;
+    bad.rows = 2;
+    expect_invalid(s, trl_renderer_set_projective(s->renderer, &bad));
+    bad = good;
+    bad.placing = (trl_projective_rows)7;
+    expect_invalid(s, trl_renderer_set_projective(s->renderer, &bad));
+    expect_invalid(s, trl_renderer_set_projective(s->renderer, NULL));
+    trl_renderer *out = s->renderer;
+    trl_renderer_desc desc = trl_renderer_desc_default();
+    desc.scene = s->scene;
+    desc.projective = bad;
+    expect_invalid(s, trl_renderer_create(s->f->ctx, &desc, &out));
+    assert_int_equal(trl_renderer_set_projective(s->renderer, &good), TRL_OK);
+}
+
 static void wrong_sizes_are_refused(void **state)
 {
     struct setup *s = *state;
@@ -396,6 +420,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_descriptions_are_refused),
         cmocka_unit_test(meshers_have_names_and_others_are_refused),
+        cmocka_unit_test(projective_grids_that_cannot_be_are_refused),
         cmocka_unit_test(wrong_sizes_are_refused),
         cmocka_unit_test(views_with_wrong_numbers_are_refused),
         cmocka_unit_test(nothing_is_read_before_something_is_drawn),
