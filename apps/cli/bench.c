@@ -38,6 +38,8 @@ static const struct bench benches[] = {
      bench_run_elek_fps, "Elek and Kmoch 2010, Section 6"},
     {"elek-rgb-vs-spectral", "colours from three wavelengths against those from sixteen",
      bench_run_elek_rgb, "Elek and Kmoch 2010, Figure 6"},
+    {"pgm-fps", "frames per second of the projective mesher, by grid and screen, three views",
+     bench_run_pgm_fps, "Planetary Terrain Rendering (PGM), Section 8"},
 };
 enum { BENCH_COUNT = sizeof benches / sizeof benches[0] };
 _Static_assert((int)BENCH_COUNT <= (int)OPTIONS_MAX_POSITIONALS, "all can be named at once");

@@ -6,6 +6,7 @@ import json
 import unittest
 
 from process import IS_SLOW, SCENES, ProgramTest, require_gl
+from render_test import add_layers, make_tiff
 
 RUNS = 1 if IS_SLOW else 2
 
@@ -66,6 +67,21 @@ class Bench(ProgramTest):
             together = rows[case, "passes together"]
             self.assertLessEqual(max(row["min"] for row in passes), together["min"])
             self.assertGreater(rows[case, "moving frame"]["min"], 0.0)
+
+    def test_projective_frames_by_grid_and_screen(self):
+        (self.data / "h.tif").write_bytes(make_tiff(256, 128))
+        scene = add_layers({"name": "h", "elevation": "h.tif"})
+        del scene["views"]["orbit"]
+        words = ["bench", "pgm-fps", "--runs", "1", "--scene"]
+        bench = json.loads(self.expect_success(*words, self.write_scene(scene), "--json").stdout)
+        rows = {(row["case"], row["metric"]): row for row in bench["rows"]}
+        self.assertEqual(len(rows), 2 * 9)
+        for grid in [512, 768, 1024]:
+            for screen in [512, 768, 1024]:
+                case = f"ground, grid {grid}^2, screen {screen}^2"
+                self.assertGreater(rows[case, "frame"]["min"], 0.0)
+                self.assertGreater(rows[case, "step"]["min"], 0.0)
+        self.expect_failure(1, [*words, self.write_scene()], ["no ground", "make data"])
 
     def test_table_of_a_paper(self):
         table, = self.measure("schafhitzel-table2")
