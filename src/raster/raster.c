@@ -3,18 +3,15 @@
 #include "raster/raster.h"
 
 #include "raster/gdal.h"
+#include "raster/georeference.h"
 #include "raster/remote.h"
 
 #include <cpl_conv.h>
 #include <errno.h>
 #include <gdal.h>
 #include <math.h>
-#include <ogr_srs_api.h>
 #include <string.h>
 #include <sys/stat.h>
-
-// Borders may stick out by this part of a pixel: georeferences are written with few digits.
-static const double BORDER_SLACK = 1e-3;
 
 // Local formats with pixels of their own. Others (VRT, WMS, …) point elsewhere, also to the
 // network, and a planet's data must not do that unasked.
@@ -106,7 +103,7 @@ static trl_result open_dataset(struct raster *raster, bool is_threaded)
     return TRL_OK;
 }
 
-static trl_result read_size_and_type(struct raster *raster)
+trl_result raster_read_size_and_type(struct raster *raster)
 {
     const int width = GDALGetRasterXSize(raster->dataset);
     const int height = GDALGetRasterYSize(raster->dataset);
@@ -131,84 +128,14 @@ static trl_result read_size_and_type(struct raster *raster)
     raster->type = type == GDT_Byte    ? RASTER_UINT8
                    : type == GDT_Int16 ? RASTER_INT16
                                        : RASTER_FLOAT;
+    // An alpha band that warping adds (source is set) only says where the file ends.
+    if (!raster->source) {
+        raster->has_alpha = type == GDT_Byte && (bands == 2 || bands == 4);
+    }
     int has_nodata = 0;
     raster->nodata = GDALGetRasterNoDataValue(band, &has_nodata);
     raster->has_nodata = has_nodata != 0;
     return TRL_OK;
-}
-
-static trl_result assume_whole_globe(struct raster *raster)
-{
-    if (raster->width != 2 * raster->height) {
-        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                        "%s: no georeference, and %u x %u is not the 2:1 of a whole globe",
-                        raster->path, raster->width, raster->height);
-    }
-    raster->west_deg = -180;
-    raster->north_deg = 90;
-    raster->pixel_width_deg = 360.0 / raster->width;
-    raster->pixel_height_deg = 180.0 / raster->height;
-    return TRL_OK;
-}
-
-static trl_result check_projection(const struct raster *raster)
-{
-    const OGRSpatialReferenceH srs = GDALGetSpatialRef(raster->dataset);
-    if (srs && !OSRIsGeographic(srs) && !OSRIsDerivedGeographic(srs)) {
-        const char *name = OSRGetAttrValue(srs, "PROJCS", 0);
-        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                        "%s: projected (%s); only longitude and latitude can be read", raster->path,
-                        name ? name : "unnamed");
-    }
-    return TRL_OK;
-}
-
-static trl_result check_borders(struct raster *raster)
-{
-    const double across = raster->pixel_width_deg * raster->width;
-    const double down = raster->pixel_height_deg * raster->height;
-    // Grids whose nodes lie on the borders stick out by half a pixel on either side.
-    const double slack_x = raster->pixel_width_deg * (1 + BORDER_SLACK);
-    const double slack_y = raster->pixel_height_deg * (0.5 + BORDER_SLACK);
-    if (across > 360 + slack_x || raster->north_deg > 90 + slack_y ||
-        raster->north_deg - down < -90 - slack_y || fabs(raster->west_deg) > 720) {
-        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                        "%s: its borders are outside the globe (%g to %g E, %g to %g N)",
-                        raster->path, raster->west_deg, raster->west_deg + across,
-                        raster->north_deg - down, raster->north_deg);
-    }
-    raster->west_deg -= 360 * floor((raster->west_deg + 180) / 360);
-    raster->east_deg = raster->west_deg + across;
-    raster->south_deg = raster->north_deg - down;
-    raster->is_whole_circle = fabs(across - 360) < raster->pixel_width_deg * BORDER_SLACK * 10;
-    return TRL_OK;
-}
-
-static trl_result read_georeference(struct raster *raster)
-{
-    double t[6];
-    if (GDALGetGeoTransform(raster->dataset, t) != CE_None) {
-        const trl_result result = assume_whole_globe(raster);
-        return result == TRL_OK ? check_borders(raster) : result;
-    }
-    const trl_result result = check_projection(raster);
-    if (result != TRL_OK) {
-        return result;
-    }
-    for (int i = 0; i < 6; i++) {
-        if (!isfinite(t[i])) {
-            return fail_file(raster, TRL_ERROR_INVALID, "its georeference is not finite");
-        }
-    }
-    if (t[2] != 0 || t[4] != 0 || !(t[1] > 0) || !(t[5] < 0)) {
-        return fail_file(raster, TRL_ERROR_INVALID,
-                         "it is turned; rows must run east and the first one be the north");
-    }
-    raster->west_deg = t[0];
-    raster->north_deg = t[3];
-    raster->pixel_width_deg = t[1];
-    raster->pixel_height_deg = -t[5];
-    return check_borders(raster);
 }
 
 trl_result raster_open(const trl_context *ctx, const char *path, struct raster *out)
@@ -225,9 +152,9 @@ trl_result raster_open(const trl_context *ctx, const char *path, struct raster *
     if (result == TRL_OK) {
         struct gdal_catcher catcher;
         gdal_catch_begin(&catcher, ctx);
-        result = read_size_and_type(out);
+        result = raster_read_size_and_type(out);
         if (result == TRL_OK) {
-            result = read_georeference(out);
+            result = raster_read_georeference(out);
         }
         gdal_catch_end(&catcher);
     }
@@ -240,9 +167,15 @@ trl_result raster_open(const trl_context *ctx, const char *path, struct raster *
 trl_result raster_open_again(const struct raster *raster, struct raster *out)
 {
     *out = *raster;
-    out->dataset = NULL;
+    out->dataset = out->source = NULL;
     out->path = mem_strdup(raster->ctx, raster->path);
-    const trl_result result = out->path ? open_dataset(out, false) : TRL_ERROR_MEMORY;
+    trl_result result = out->path ? open_dataset(out, false) : TRL_ERROR_MEMORY;
+    if (result == TRL_OK && raster->source) {
+        struct gdal_catcher catcher;
+        gdal_catch_begin(&catcher, raster->ctx);
+        result = raster_warp(out);
+        gdal_catch_end(&catcher);
+    }
     if (result != TRL_OK) {
         raster_finish(out);
     }
@@ -274,6 +207,8 @@ struct raster raster_reduced(const struct raster *raster, uint32_t width, uint32
     reduced.height = height;
     reduced.pixel_width_deg *= (double)raster->width / width;
     reduced.pixel_height_deg *= (double)raster->height / height;
+    reduced.plane.pixel_width *= (double)raster->width / width;
+    reduced.plane.pixel_height *= (double)raster->height / height;
     return reduced;
 }
 
@@ -288,6 +223,9 @@ void raster_finish(struct raster *raster)
         struct gdal_catcher catcher;
         gdal_catch_begin(&catcher, raster->ctx);
         GDALClose(raster->dataset);
+        if (raster->source) {
+            GDALClose(raster->source);
+        }
         gdal_catch_end(&catcher);
     }
     if (raster->path) {

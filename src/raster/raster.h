@@ -4,10 +4,15 @@
 #define RASTER_RASTER_H
 // Rasters in files, read through GDAL: where they lie on the sphere and what their pixels hold.
 //
-// A raster is equirectangular: columns run east along a parallel, rows run south along a meridian,
-// both in equal steps of degrees. Borders are those of the outer pixels' outer edges, whatever the
-// file's registration. A file without georeference is taken for the whole globe, left edge at 180
-// W, when it is exactly twice as wide as high; anything else is an error.
+// A raster is equirectangular (columns run east along a parallel, rows run south along a meridian,
+// both in equal steps of degrees) or stereographic about a pole. Of both, borders are those of the
+// outer pixels' outer edges, whatever the file's registration. In any other projection that GDAL
+// knows a file is warped to an equirectangular raster of its own resolution while it is read. A
+// file without georeference is taken for the whole globe, left edge at 180 W, when it is exactly
+// twice as wide as high; anything else is an error.
+//
+// Latitudes are those of the file's own geographic system; on Earth, other data than WGS 84 are
+// shifted to it where a file is warped.
 
 #include "base/context.h"
 
@@ -21,6 +26,16 @@ enum raster_type {
     RASTER_FLOAT  // everything else, as GDAL converts it
 };
 
+// The plane of shared/projection.glsl, in radians at the pole: x to the right, y up.
+struct raster_plane {
+    double pole;          // 1 north, -1 south; 0: equirectangular
+    double longitude_deg; // which meridian runs straight down from the north pole, up from the
+                          // south pole
+    double e2;            // squared eccentricity of the ellipsoid
+    double left, top;     // outer edges of the first pixel
+    double pixel_width, pixel_height;
+};
+
 // Owner: whoever opened it. Threads: one at a time (GDAL's datasets are not shareable); open it
 // twice to read from two.
 struct raster {
@@ -28,10 +43,14 @@ struct raster {
     char *path; // owned
     bool is_remote;
     void *dataset; // GDALDatasetH, owned
+    void *source;  // GDALDatasetH, owned: what `dataset` is warped from, or NULL
     uint32_t width, height;
     uint32_t file_width, file_height; // more than these where it is reduced
     uint32_t band_count;
-    enum raster_type type; // of the first band's file type
+    enum raster_type type;     // of the first band's file type
+    bool has_alpha;            // the last band of 8 bits, of the file's own, says what is covered
+    struct raster_plane plane; // of a stereographic raster, else zeroed
+    // Of an equirectangular one, else 0.
     double west_deg, east_deg, south_deg,
         north_deg;                            // west in [-180, 180); east > west, to west + 360
     double pixel_width_deg, pixel_height_deg; // both > 0
@@ -42,9 +61,9 @@ struct raster {
 
 // Opens a local file, or one behind a URL where the context allows that. Nothing of its pixels is
 // read yet.
-// Returns TRL_OK; TRL_ERROR_IO (missing or unreadable); TRL_ERROR_INVALID (not a raster, not
-// equirectangular, beyond the bounds above, not allowed); TRL_ERROR_MEMORY. *out is zeroed on
-// failure.
+// Returns TRL_OK; TRL_ERROR_IO (missing or unreadable); TRL_ERROR_INVALID (not a raster, no
+// georeference that can be read or warped, beyond the bounds above, not allowed); TRL_ERROR_MEMORY.
+// *out is zeroed on failure.
 TRL_MUST_USE trl_result raster_open(const trl_context *ctx, const char *path, struct raster *out);
 
 // Opens the file of an open raster once more, so that another thread can read from it. What it

@@ -206,12 +206,12 @@ static void a_left_edge_at_0_east_stays_there(void **state)
 static void wrong_georeferences_are_refused(void **state)
 {
     struct recipe r = GLOBE;
-    r.transform[2] = 1; // turned
+    r.transform[2] = 1; // turned, in nothing that is known
+    r.epsg = 0;
     expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "turned");
     r = GLOBE;
-    r.transform[3] = -90;
-    r.transform[5] = 10; // south first
-    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "turned");
+    r.transform[5] = 0;
+    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "no area");
     r = GLOBE;
     r.transform[1] = 11; // 396 degrees round
     expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "outside the globe");
@@ -222,8 +222,111 @@ static void wrong_georeferences_are_refused(void **state)
     r.transform[0] = NAN;
     expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "not finite");
     r = GLOBE;
-    r.epsg = 32633; // metres of UTM
-    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "projected");
+    r.epsg = 32633; // UTM, far from where it holds
+    r.transform[0] = 1e9;
+    r.transform[1] = 1e8;
+    expect_refused(*state, make_file(*state, &r), TRL_ERROR_INVALID, "cannot be turned into");
+}
+
+// A place's value in the file, as the raster's own borders have it.
+static double value_in(const struct raster *raster, double latitude, double longitude)
+{
+    const double x = (longitude - raster->west_deg) / raster->pixel_width_deg;
+    const double y = (raster->north_deg - latitude) / raster->pixel_height_deg;
+    assert_true(x >= 0 && x < raster->width && y >= 0 && y < raster->height);
+    const struct raster_window one = {(uint32_t)x, (uint32_t)y, 1, 1, 1, 1};
+    float value;
+    assert_int_equal(raster_read_float(raster, &one, 0, &value), TRL_OK);
+    return (double)value;
+}
+
+static void rasters_with_the_south_first_are_turned_over(void **state)
+{
+    struct recipe r = GLOBE;
+    r.transform[3] = -90;
+    r.transform[5] = 10;
+    struct raster raster;
+    open_made(*state, &r, &raster);
+    assert_true(raster.north_deg == 90 && raster.is_whole_circle);
+    // Row 0 of the file is the southernmost.
+    assert_true(value_in(&raster, -85, -175) == value_at(&r, 0, 0, 0));
+    assert_true(value_in(&raster, 85, 175) == value_at(&r, 0, 35, 17));
+    raster_finish(&raster);
+}
+
+static void metres_of_an_equirectangular_map_are_degrees(void **state)
+{
+    struct recipe r = GLOBE;
+    r.epsg = 32662; // plate carree; the ellipsoid's larger radius
+    const double degree = 6378137 * RADIAN;
+    r.transform[0] = -180 * degree;
+    r.transform[1] = 10 * degree;
+    r.transform[3] = 90 * degree;
+    r.transform[5] = -10 * degree;
+    struct raster raster;
+    open_made(*state, &r, &raster);
+    assert_null(raster.source); // as it is, not warped
+    assert_true(fabs(raster.west_deg + 180) < 1e-9 && fabs(raster.north_deg - 90) < 1e-9);
+    assert_true(raster.is_whole_circle && fabs(raster.pixel_width_deg - 10) < 1e-9);
+    raster_finish(&raster);
+}
+
+// EPSG 3413 and 3031: WGS 84, true to scale at 70 N and 71 S, meridian 45 W straight down; 0 E
+// straight up.
+static void polar_maps_are_known(void **state)
+{
+    for (int i = 0; i < 2; i++) {
+        struct recipe r = GLOBE;
+        r.width = r.height = 20;
+        r.epsg = i == 0 ? 3413 : 3031;
+        r.transform[0] = -1e6;
+        r.transform[1] = 1e5;
+        r.transform[3] = 1e6;
+        r.transform[5] = -1e5;
+        struct raster raster;
+        open_made(*state, &r, &raster);
+        assert_null(raster.source);
+        assert_true(raster.plane.pole == (i == 0 ? 1 : -1));
+        assert_true(fabs(raster.plane.longitude_deg - (i == 0 ? -45 : 0)) < 1e-9);
+        assert_true(fabs(raster.plane.e2 - 0.00669438) < 1e-8);
+        assert_true(fabs(raster.plane.left + 10 * raster.plane.pixel_width) < 1e-12);
+        // The map is 3 % smaller than the ground at the pole, where an ellipsoid's radius of
+        // curvature is 6399594 m. Snyder 1987, Eq. 21-33 to 21-35.
+        const double scale = i == 0 ? 0.969858 : 0.972769;
+        assert_true(fabs(raster.plane.pixel_width * 6399594 * scale / 1e5 - 1) < 2e-6);
+        raster_finish(&raster);
+    }
+}
+
+// Zone 33, on the 15th meridian: 4 km a pixel, 500 km east of the zone's origin.
+static void other_projections_are_warped(void **state)
+{
+    struct recipe r = GLOBE;
+    r.width = 40;
+    r.height = 50;
+    r.epsg = 32633;
+    r.transform[0] = 500000 - 20 * 4000;
+    r.transform[1] = 4000;
+    r.transform[3] = 5000000;
+    r.transform[5] = -4000;
+    struct raster raster;
+    open_made(*state, &r, &raster);
+    assert_non_null(raster.source);
+    assert_true(raster.plane.pole == 0);
+    // 5 000 000 m north is 45.153 N on the middle meridian; its pixels are those of 15 E.
+    assert_true(raster.west_deg < 14 && raster.east_deg > 16);
+    assert_true(fabs(raster.north_deg - 45.16) < 0.03);
+    // 4 km are a step of 100 to the east and 1 to the south.
+    assert_true(fabs(value_in(&raster, 44.5, 15.0) - value_at(&r, 0, 20, 18)) < 60);
+    assert_true(fabs(value_in(&raster, 44.5, 15.5) - value_at(&r, 0, 30, 18)) < 100);
+    // A corner that the warped raster has and the file has not.
+    assert_true(raster.has_nodata && raster.type == RASTER_INT16);
+    // Another thread's copy is warped too.
+    struct raster again;
+    assert_int_equal(raster_open_again(&raster, &again), TRL_OK);
+    assert_true(value_in(&again, 44.5, 15.2) == value_in(&raster, 44.5, 15.2));
+    raster_finish(&again);
+    raster_finish(&raster);
 }
 
 static void files_that_are_no_rasters_are_refused(void **state)
@@ -630,6 +733,10 @@ int main(void)
         TEST(a_globe_without_georeference_is_taken_for_one),
         TEST(a_left_edge_at_0_east_stays_there),
         TEST(wrong_georeferences_are_refused),
+        TEST(rasters_with_the_south_first_are_turned_over),
+        TEST(metres_of_an_equirectangular_map_are_degrees),
+        TEST(polar_maps_are_known),
+        TEST(other_projections_are_warped),
         TEST(files_that_are_no_rasters_are_refused),
         TEST(nothing_but_local_files_is_opened),
         TEST(complex_pixels_are_refused),
