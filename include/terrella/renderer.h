@@ -105,7 +105,8 @@ TRL_API trl_renderer_desc trl_renderer_desc_default(void);
 
 /// Solves the atmosphere or loads it from the context's cache folder, loads the scene's rasters and
 /// compiles programs. Blocks for up to some seconds and tells the context's progress function how
-/// far it is. A missing raster is an error unless its layer is optional.
+/// far it is. A missing raster is an error unless its layer is optional; one that is there but no
+/// good is told in a line of the log and left out.
 /// @param[out] out  new renderer, or NULL on failure
 /// @return TRL_OK; TRL_ERROR_INVALID (argument, or a file's content); TRL_ERROR_MEMORY;
 /// TRL_ERROR_IO (raster);

@@ -4,6 +4,7 @@
 // sphere, planet axes, m; w = altitude, m. Drawn once for each projection camera.
 // validate: ELEVATION_COUNT 0; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0
 // validate: ELEVATION_COUNT 4; COLOUR_COUNT 4; WATER_COUNT 4; LIGHTS_COUNT 4
+// validate: ELEVATION_COUNT 3; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_POLAR; HAS_MODES
 // validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; NO_FLOAT_LINEAR
 #include "shared/hemisphere.glsl"
 #include "terrain/layers.glsl"

@@ -2,20 +2,27 @@
 // SPDX-License-Identifier: MIT
 // The rasters of the surface at a place, which is given as an offset from the anchor: `geo` is the
 // difference in longitude and latitude, in radians. Needs ELEVATION_COUNT, COLOUR_COUNT,
-// WATER_COUNT, LIGHTS_COUNT (0 to 4); NO_FLOAT_LINEAR where 32F textures are not filtered. The C
-// side is src/terrain/bind.c.
+// WATER_COUNT, LIGHTS_COUNT, NORMAL_COUNT (0 to 4); NO_FLOAT_LINEAR where 32F textures are not
+// filtered; HAS_POLAR where a layer is stereographic; HAS_MODES where one does more than cover. The
+// C side is src/terrain/bind.c.
+#include "shared/blend.glsl"
 #include "shared/cubic.glsl"
+#include "shared/projection.glsl"
 
 uniform vec4 u_anchor; // sine, cosine of its latitude, the latitude, the sphere's radius in m
 
-// Of each layer: place = offset of the anchor from the raster's middle (longitude, latitude), and
-// 1 / extent; shape = how far it reaches from the middle (sideways, north, south; 9 is endless),
-// 1 / feather; texel = height's scale (see below), a texel's height in radians, log2 of that in m,
-// offset. Heights are scale times what a texture holds plus the offset, in m.
+// Of each layer four vec4, the columns of a mat4:
+//     place   map coordinates of the anchor less those of the raster's middle, and 1 / extent
+//     shape   how far it reaches from the middle (sideways, up, down; 9 is endless), 1 / feather
+//     texel   scale and offset (w) of what it holds, a texel's height on the map (y), log2 of that
+//             in m (z); heights are scale times what a texture holds plus the offset, in m
+//     turn    stereographic: sine, cosine of the anchor's longitude less the map's; the pole (1 or
+//             -1) times the ellipsoid's factor at the anchor; e^2. z is 0 for equirectangular ones.
+#define LAYER_FRAME(u, i) mat4(u[4 * i], u[4 * i + 1], u[4 * i + 2], u[4 * i + 3])
+
 #if ELEVATION_COUNT > 0
-uniform vec4 u_elevation_place[4];
-uniform vec4 u_elevation_shape[4];
-uniform vec4 u_elevation_texel[4];
+uniform vec4 u_elevation[16];
+uniform vec4 u_elevation_modes; // of shared/blend.glsl
 uniform sampler2D u_elevation0;
 #endif
 #if ELEVATION_COUNT > 1
@@ -51,15 +58,58 @@ vec2 geo_over_pole(vec2 geo)
     return past > 0.0 ? vec2(geo.x + LAYER_PI, geo.y - 2.0 * sign(latitude) * past) : geo;
 }
 
-// Texture coordinates (x, y) and the layer's weight (z).
-vec3 layer_locate(vec4 place, vec4 shape, vec2 geo)
+// A place as the projections want it.
+struct Ground {
+    vec2 geo;
+    AxisOffset axis; // not set without HAS_POLAR
+};
+
+Ground ground_at(vec2 geo)
 {
-    float east = place.x + geo.x;
+    Ground g;
+    g.geo = geo;
+#ifdef HAS_POLAR
+    g.axis = projection_axis_offset(u_anchor.x, u_anchor.y, geo.x, geo.y);
+#endif
+    return g;
+}
+
+// Map coordinates from the raster's middle, of equirectangular layers only and of any.
+vec2 layer_map_round(mat4 frame, vec2 geo)
+{
+    float east = frame[0].x + geo.x;
     east -= 2.0 * LAYER_PI * floor(east / (2.0 * LAYER_PI) + 0.5);
-    float north = place.y + geo.y;
-    float inside = min(shape.x - abs(east), min(shape.y - north, shape.z + north));
+    return vec2(east, frame[0].y + geo.y);
+}
+
+vec2 layer_map(mat4 frame, Ground g)
+{
+    vec2 map = layer_map_round(frame, g.geo);
+#ifdef HAS_POLAR
+    vec4 turn = frame[3];
+    float pole = turn.z < 0.0 ? -1.0 : 1.0;
+    MapOffset m =
+        projection_stereographic(g.axis, u_anchor.x, u_anchor.y, pole, turn.w, abs(turn.z));
+    vec2 plane =
+        frame[0].xy + vec2(m.x * turn.x + m.y * turn.y, pole * (m.y * turn.x - m.x * turn.y));
+    map = turn.z != 0.0 ? plane : map;
+#endif
+    return map;
+}
+
+vec2 layer_uv(mat4 frame, vec2 map)
+{
+    return vec2(0.5 + map.x * frame[0].z, 0.5 - map.y * frame[0].w);
+}
+
+// Texture coordinates (x, y) and the layer's weight (z).
+vec3 layer_locate(mat4 frame, Ground g)
+{
+    vec2 map = layer_map(frame, g);
+    vec4 shape = frame[1];
+    float inside = min(shape.x - abs(map.x), min(shape.y - map.y, shape.z + map.y));
     float t = clamp(inside * shape.w, 0.0, 1.0);
-    return vec3(0.5 + east * place.z, 0.5 - north * place.w, t * t * (3.0 - 2.0 * t));
+    return vec3(layer_uv(frame, map), t * t * (3.0 - 2.0 * t));
 }
 
 // textureSize(heights, level), which llvmpipe answers for one level for all pixels of a vector.
@@ -127,45 +177,59 @@ float layer_linear(sampler2D heights, vec4 shape, vec2 uv, float lod)
 }
 #endif
 
+float layer_blend(float mode, float below, float value, float weight)
+{
+#ifdef HAS_MODES
+    return blend_layers(mode, below, value, weight);
+#else
+    return mix(below, value, weight);
+#endif
+}
+
 // Lays a layer over `altitude`, smooth where its texels are larger than the footprint.
-float layer_over_cubic(float altitude, sampler2D heights, mat3x4 frame, vec2 geo,
+float layer_over_cubic(float altitude, sampler2D heights, mat4 frame, float mode, Ground g,
                        float log2_footprint)
 {
-    vec3 at = layer_locate(frame[0], frame[1], geo);
+    vec3 at = layer_locate(frame, g);
     float lod = max(log2_footprint - frame[2].z, 0.0);
     float level = floor(lod);
     float low = layer_cubic(heights, frame[1], at.xy, int(level));
     float high = layer_cubic(heights, frame[1], at.xy, int(level) + (lod > level ? 1 : 0));
     float value = frame[2].w + frame[2].x * mix(low, high, lod - level);
-    return mix(altitude, value, at.z);
+    return layer_blend(mode, altitude, value, at.z);
 }
 
-float layer_over_linear(float altitude, sampler2D heights, mat3x4 frame, vec2 geo,
+float layer_over_linear(float altitude, sampler2D heights, mat4 frame, float mode, Ground g,
                         float log2_footprint)
 {
-    vec3 at = layer_locate(frame[0], frame[1], geo);
+    vec3 at = layer_locate(frame, g);
     float lod = log2_footprint - frame[2].z;
     float value = frame[2].w + frame[2].x * layer_linear(heights, frame[1], at.xy, lod);
-    return mix(altitude, value, at.z);
+    return layer_blend(mode, altitude, value, at.z);
 }
 
-#define ELEVATION_FRAME(i) mat3x4(u_elevation_place[i], u_elevation_shape[i], u_elevation_texel[i])
+#define ELEVATION_FRAME(i) LAYER_FRAME(u_elevation, i)
 
 // Metres above the sphere, as all layers together say it.
 float terrain_altitude(vec2 geo, float log2_footprint)
 {
     float h = 0.0;
+    Ground g = ground_at(geo);
 #if ELEVATION_COUNT > 0
-    h = layer_over_cubic(h, u_elevation0, ELEVATION_FRAME(0), geo, log2_footprint);
+    h = layer_over_cubic(h, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x, g,
+                         log2_footprint);
 #endif
 #if ELEVATION_COUNT > 1
-    h = layer_over_cubic(h, u_elevation1, ELEVATION_FRAME(1), geo, log2_footprint);
+    h = layer_over_cubic(h, u_elevation1, ELEVATION_FRAME(1), u_elevation_modes.y, g,
+                         log2_footprint);
 #endif
 #if ELEVATION_COUNT > 2
-    h = layer_over_cubic(h, u_elevation2, ELEVATION_FRAME(2), geo, log2_footprint);
+    h = layer_over_cubic(h, u_elevation2, ELEVATION_FRAME(2), u_elevation_modes.z, g,
+                         log2_footprint);
 #endif
 #if ELEVATION_COUNT > 3
-    h = layer_over_cubic(h, u_elevation3, ELEVATION_FRAME(3), geo, log2_footprint);
+    h = layer_over_cubic(h, u_elevation3, ELEVATION_FRAME(3), u_elevation_modes.w, g,
+                         log2_footprint);
 #endif
     return h;
 }
@@ -174,17 +238,22 @@ float terrain_altitude(vec2 geo, float log2_footprint)
 float terrain_altitude_linear(vec2 geo, float log2_footprint)
 {
     float h = 0.0;
+    Ground g = ground_at(geo);
 #if ELEVATION_COUNT > 0
-    h = layer_over_linear(h, u_elevation0, ELEVATION_FRAME(0), geo, log2_footprint);
+    h = layer_over_linear(h, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x, g,
+                          log2_footprint);
 #endif
 #if ELEVATION_COUNT > 1
-    h = layer_over_linear(h, u_elevation1, ELEVATION_FRAME(1), geo, log2_footprint);
+    h = layer_over_linear(h, u_elevation1, ELEVATION_FRAME(1), u_elevation_modes.y, g,
+                          log2_footprint);
 #endif
 #if ELEVATION_COUNT > 2
-    h = layer_over_linear(h, u_elevation2, ELEVATION_FRAME(2), geo, log2_footprint);
+    h = layer_over_linear(h, u_elevation2, ELEVATION_FRAME(2), u_elevation_modes.z, g,
+                          log2_footprint);
 #endif
 #if ELEVATION_COUNT > 3
-    h = layer_over_linear(h, u_elevation3, ELEVATION_FRAME(3), geo, log2_footprint);
+    h = layer_over_linear(h, u_elevation3, ELEVATION_FRAME(3), u_elevation_modes.w, g,
+                          log2_footprint);
 #endif
     return h;
 }

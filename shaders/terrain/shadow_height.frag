@@ -3,6 +3,7 @@
 // Where the shadow map starts from: the ground's altitude, a distance of 0, and the altitude again,
 // which stays.
 // validate: ELEVATION_COUNT 0; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0
+// validate: ELEVATION_COUNT 3; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_POLAR; HAS_MODES
 // validate: ELEVATION_COUNT 4; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; NO_FLOAT_LINEAR
 #include "terrain/layers.glsl"
 #include "terrain/shadow_map.glsl"

@@ -3,9 +3,14 @@
 // Colour, normal, terrain shadow and lights of the ground, for each pixel of the position target.
 // Formats and meanings of the outputs are in src/terrain/compose.h.
 // validate: ELEVATION_COUNT 0; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0
-// validate: ELEVATION_COUNT 4; COLOUR_COUNT 4; WATER_COUNT 4; LIGHTS_COUNT 4
+// validate: ELEVATION_COUNT 4; COLOUR_COUNT 4; WATER_COUNT 4; LIGHTS_COUNT 4; NORMAL_COUNT 4
 // validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; NO_FLOAT_LINEAR
 // validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; HAS_DETAIL
+// validate: ELEVATION_COUNT 3; COLOUR_COUNT 3; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_POLAR; HAS_MODES
+// validate: ELEVATION_COUNT 1; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; NORMAL_COUNT 1
+#ifndef NORMAL_COUNT
+#define NORMAL_COUNT 0
+#endif
 #include "terrain/layers.glsl"
 #include "terrain/shadow.glsl"
 #ifdef HAS_DETAIL
@@ -19,9 +24,8 @@ uniform vec3 u_default_albedo;
 uniform float u_region; // log2 of its width, m
 
 #if COLOUR_COUNT > 0
-uniform vec4 u_colour_place[4];
-uniform vec4 u_colour_shape[4];
-uniform vec4 u_colour_texel[4];
+uniform vec4 u_colour[16];
+uniform vec4 u_colour_modes;
 uniform sampler2D u_colour0;
 #endif
 #if COLOUR_COUNT > 1
@@ -34,9 +38,8 @@ uniform sampler2D u_colour2;
 uniform sampler2D u_colour3;
 #endif
 #if WATER_COUNT > 0
-uniform vec4 u_water_place[4];
-uniform vec4 u_water_shape[4];
-uniform vec4 u_water_texel[4];
+uniform vec4 u_water[16];
+uniform vec4 u_water_modes;
 uniform sampler2D u_water0;
 #endif
 #if WATER_COUNT > 1
@@ -49,9 +52,8 @@ uniform sampler2D u_water2;
 uniform sampler2D u_water3;
 #endif
 #if LIGHTS_COUNT > 0
-uniform vec4 u_lights_place[4];
-uniform vec4 u_lights_shape[4];
-uniform vec4 u_lights_texel[4];
+uniform vec4 u_lights[16];
+uniform vec4 u_lights_modes;
 uniform sampler2D u_lights0;
 #endif
 #if LIGHTS_COUNT > 1
@@ -63,126 +65,231 @@ uniform sampler2D u_lights2;
 #if LIGHTS_COUNT > 3
 uniform sampler2D u_lights3;
 #endif
+#if NORMAL_COUNT > 0
+uniform vec4 u_normal[16];
+uniform vec4 u_normal_modes;
+uniform sampler2D u_normal0;
+#endif
+#if NORMAL_COUNT > 1
+uniform sampler2D u_normal1;
+#endif
+#if NORMAL_COUNT > 2
+uniform sampler2D u_normal2;
+#endif
+#if NORMAL_COUNT > 3
+uniform sampler2D u_normal3;
+#endif
 
 layout(location = 0) out vec4 o_albedo_water;
 layout(location = 1) out vec4 o_normal_sun;
 layout(location = 2) out vec4 o_lights;
 layout(location = 3) out vec4 o_region;
 
-vec4 layer_picture(sampler2D picture, vec4 place, vec4 shape, vec4 texel, vec3 geo_footprint)
+// Colour (as square roots) over what lies below, by the layer's alpha.
+vec3 layer_over_picture(vec3 below, sampler2D picture, mat4 frame, float mode, Ground g,
+                        float log2_footprint)
 {
-    vec3 at = layer_locate(place, shape, geo_footprint.xy);
-    vec4 c = textureLod(picture, at.xy, geo_footprint.z - texel.z);
-    return vec4(c.xyz, c.w * at.z);
+    vec3 at = layer_locate(frame, g);
+    vec4 c = textureLod(picture, at.xy, log2_footprint - frame[2].z);
+    vec3 value = c.xyz;
+#ifdef HAS_MODES
+    bool adds = mode > 0.5 && mode < 1.5; // light, not its roots
+    value = vec3(blend_whole(mode, below.x, c.x), blend_whole(mode, below.y, c.y),
+                 blend_whole(mode, below.z, c.z));
+    value = adds ? sqrt(below * below + c.xyz * c.xyz) : value;
+#endif
+    return mix(below, value, c.w * at.z);
 }
 
-// Colour (mixed as square roots) over what lies below, by the layer's alpha.
-vec3 layer_over_picture(vec3 below, sampler2D picture, mat3x4 frame, vec3 geo_footprint)
+float layer_over_mask(float below, sampler2D mask, mat4 frame, float mode, Ground g,
+                      float log2_footprint)
 {
-    vec4 c = layer_picture(picture, frame[0], frame[1], frame[2], geo_footprint);
-    return mix(below, c.xyz, c.w);
+    vec3 at = layer_locate(frame, g);
+    return layer_blend(mode, below, textureLod(mask, at.xy, log2_footprint - frame[2].z).x, at.z);
 }
 
-float layer_over_mask(float below, sampler2D mask, mat3x4 frame, vec3 geo_footprint)
+// A pixel's place and the unit vectors east, north and up there, local frame.
+struct Tangent {
+    Ground ground;
+    float log2_footprint, cos_latitude;
+    vec3 east, north, up;
+};
+
+// Unit vectors along a map's x and y at a place, and half the map's scale there (stereographic).
+struct MapAxes {
+    vec3 x, y;
+    float half_scale;
+};
+
+// The stereographic map turns a vector e of its plane to e - (e . v) / (1 + a . v) (v + a), where v
+// is the place and a its pole.
+MapAxes layer_axes(mat4 frame, Tangent t)
 {
-    vec3 at = layer_locate(frame[0], frame[1], geo_footprint.xy);
-    return mix(below, textureLod(mask, at.xy, geo_footprint.z - frame[2].z).x, at.z);
+    MapAxes axes = MapAxes(t.east, t.north, 0.5);
+#ifdef HAS_POLAR
+    vec4 turn = frame[3];
+    float pole = turn.z < 0.0 ? -1.0 : 1.0;
+    vec3 axis = pole * vec3(0.0, u_anchor.y, u_anchor.x);
+    vec3 outward = vec3(0.0, -u_anchor.x, u_anchor.y);
+    vec3 sum = (t.up + axis) / max(1.0 + dot(axis, t.up), 1.0e-4);
+    vec3 along = outward - dot(outward, t.up) * sum;
+    vec3 across = vec3(1.0, 0.0, 0.0) - t.up.x * sum;
+    if (turn.z != 0.0) {
+        axes.x = along * turn.x + across * turn.y;
+        axes.y = pole * (across * turn.x - along * turn.y);
+        axes.half_scale =
+            projection_stereographic_scale(u_anchor.x, t.ground.axis.up, pole) * abs(turn.z);
+    }
+#endif
+    return axes;
 }
 
-// Slopes to the east and north of the layer, laid over those below. Steps are half a texel of the
-// level that is seen, alike in metres: over a linear filter that is the continuous slope of a
-// quadratic spline. z: log2 of a texel's height in m.
-vec3 layer_over_slope(vec3 below, sampler2D heights, mat3x4 frame, vec3 geo_footprint,
-                      float cos_latitude)
+// The slope of a layer, as a tangent vector, laid over those below; w: log2 of a texel's height in
+// m. Steps are half a texel of the level that is seen, alike in metres: over a linear filter that
+// is the continuous slope of a quadratic spline. `height` is that of the layers so far.
+vec4 layer_over_slope(vec4 below, sampler2D heights, mat4 frame, float mode, Tangent t,
+                      inout float height)
 {
-    vec3 at = layer_locate(frame[0], frame[1], geo_footprint.xy);
-    float lod = max(geo_footprint.z - frame[2].z, 0.0);
-    float north = 0.5 * frame[2].y * exp2(lod);
-    float east = min(north / cos_latitude, 0.5 * LAYER_PI);
-    vec2 geo = geo_footprint.xy;
-    vec2 uv_n = layer_locate(frame[0], frame[1], geo_over_pole(geo + vec2(0.0, north))).xy;
-    vec2 uv_s = layer_locate(frame[0], frame[1], geo_over_pole(geo - vec2(0.0, north))).xy;
-    vec2 to_east = vec2(east * frame[0].z, 0.0);
-    float dn =
-        layer_linear(heights, frame[1], uv_n, lod) - layer_linear(heights, frame[1], uv_s, lod);
-    float de = layer_linear(heights, frame[1], at.xy + to_east, lod) -
-               layer_linear(heights, frame[1], at.xy - to_east, lod);
-    vec2 slope = vec2(de / (east * cos_latitude), dn / north) * (frame[2].x / (2.0 * u_anchor.w));
-    return mix(below, vec3(slope, frame[2].z), at.z);
+    vec3 at = layer_locate(frame, t.ground);
+    float lod = max(t.log2_footprint - frame[2].z, 0.0);
+    float step_map = 0.5 * frame[2].y * exp2(lod);
+    float up = step_map;
+    float right = min(up / t.cos_latitude, 0.5 * LAYER_PI);
+    vec2 geo = t.ground.geo;
+    vec2 uv_up = layer_uv(frame, layer_map_round(frame, geo_over_pole(geo + vec2(0.0, up))));
+    vec2 uv_down = layer_uv(frame, layer_map_round(frame, geo_over_pole(geo - vec2(0.0, up))));
+    vec2 to_right = vec2(right * frame[0].z, 0.0);
+    vec2 steps = vec2(right * t.cos_latitude, up); // angles
+    MapAxes axes = layer_axes(frame, t);
+#ifdef HAS_POLAR
+    bool is_polar = frame[3].z != 0.0;
+    vec2 to_up = vec2(0.0, step_map * frame[0].w);
+    uv_up = is_polar ? at.xy - to_up : uv_up;
+    uv_down = is_polar ? at.xy + to_up : uv_down;
+    to_right = is_polar ? vec2(step_map * frame[0].z, 0.0) : to_right;
+    steps = is_polar ? vec2(step_map / (2.0 * axes.half_scale)) : steps;
+#endif
+    vec2 rise = vec2(layer_linear(heights, frame[1], at.xy + to_right, lod) -
+                         layer_linear(heights, frame[1], at.xy - to_right, lod),
+                     layer_linear(heights, frame[1], uv_up, lod) -
+                         layer_linear(heights, frame[1], uv_down, lod));
+    vec2 slope = rise / steps * (frame[2].x / (2.0 * u_anchor.w));
+    vec3 vector = slope.x * axes.x + slope.y * axes.y;
+#ifdef HAS_MODES
+    float value = frame[2].w + frame[2].x * layer_linear(heights, frame[1], at.xy, lod);
+    vector = vec3(blend_slope(mode, height, value, below.x, vector.x),
+                  blend_slope(mode, height, value, below.y, vector.y),
+                  blend_slope(mode, height, value, below.z, vector.z));
+    height = blend_layers(mode, height, value, at.z);
+#endif
+    return mix(below, vec4(vector, frame[2].z), at.z);
 }
 
-vec3 terrain_slope(vec3 geo_footprint, float cos_latitude)
+// A picture of normals: red to the map's right, green up, blue out of it, each -1 to 1.
+vec4 layer_over_normal(vec4 below, sampler2D normals, mat4 frame, float mode, Tangent t)
 {
-    vec3 slope = vec3(0.0, 0.0, 30.0); // no data: larger than any planet
+    vec3 at = layer_locate(frame, t.ground);
+    vec4 c = textureLod(normals, at.xy, t.log2_footprint - frame[2].z);
+    vec3 n = 2.0 * c.xyz - 1.0;
+    MapAxes axes = layer_axes(frame, t);
+    vec3 vector = -(n.x * axes.x + n.y * axes.y) / max(n.z, 0.05);
+    vector += mode > 0.5 ? below.xyz : vec3(0.0);
+    return mix(below, vec4(vector, frame[2].z), at.z * c.w);
+}
+
+vec4 terrain_slope(Tangent t)
+{
+    vec4 slope = vec4(0.0, 0.0, 0.0, 30.0); // no data: larger than any planet
+    float height = 0.0;
 #if ELEVATION_COUNT > 0
-    slope = layer_over_slope(slope, u_elevation0, ELEVATION_FRAME(0), geo_footprint, cos_latitude);
+    slope =
+        layer_over_slope(slope, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x, t, height);
 #endif
 #if ELEVATION_COUNT > 1
-    slope = layer_over_slope(slope, u_elevation1, ELEVATION_FRAME(1), geo_footprint, cos_latitude);
+    slope =
+        layer_over_slope(slope, u_elevation1, ELEVATION_FRAME(1), u_elevation_modes.y, t, height);
 #endif
 #if ELEVATION_COUNT > 2
-    slope = layer_over_slope(slope, u_elevation2, ELEVATION_FRAME(2), geo_footprint, cos_latitude);
+    slope =
+        layer_over_slope(slope, u_elevation2, ELEVATION_FRAME(2), u_elevation_modes.z, t, height);
 #endif
 #if ELEVATION_COUNT > 3
-    slope = layer_over_slope(slope, u_elevation3, ELEVATION_FRAME(3), geo_footprint, cos_latitude);
+    slope =
+        layer_over_slope(slope, u_elevation3, ELEVATION_FRAME(3), u_elevation_modes.w, t, height);
+#endif
+#if NORMAL_COUNT > 0
+    slope = layer_over_normal(slope, u_normal0, LAYER_FRAME(u_normal, 0), u_normal_modes.x, t);
+#endif
+#if NORMAL_COUNT > 1
+    slope = layer_over_normal(slope, u_normal1, LAYER_FRAME(u_normal, 1), u_normal_modes.y, t);
+#endif
+#if NORMAL_COUNT > 2
+    slope = layer_over_normal(slope, u_normal2, LAYER_FRAME(u_normal, 2), u_normal_modes.z, t);
+#endif
+#if NORMAL_COUNT > 3
+    slope = layer_over_normal(slope, u_normal3, LAYER_FRAME(u_normal, 3), u_normal_modes.w, t);
 #endif
     return slope;
 }
 
-#define COLOUR_FRAME(i) mat3x4(u_colour_place[i], u_colour_shape[i], u_colour_texel[i])
-#define WATER_FRAME(i) mat3x4(u_water_place[i], u_water_shape[i], u_water_texel[i])
-#define LIGHTS_FRAME(i) mat3x4(u_lights_place[i], u_lights_shape[i], u_lights_texel[i])
-
-vec3 terrain_albedo(vec3 geo_footprint)
+vec3 terrain_albedo(Ground g, float log2_footprint)
 {
     vec3 c = sqrt(u_default_albedo);
 #if COLOUR_COUNT > 0
-    c = layer_over_picture(c, u_colour0, COLOUR_FRAME(0), geo_footprint);
+    c = layer_over_picture(c, u_colour0, LAYER_FRAME(u_colour, 0), u_colour_modes.x, g,
+                           log2_footprint);
 #endif
 #if COLOUR_COUNT > 1
-    c = layer_over_picture(c, u_colour1, COLOUR_FRAME(1), geo_footprint);
+    c = layer_over_picture(c, u_colour1, LAYER_FRAME(u_colour, 1), u_colour_modes.y, g,
+                           log2_footprint);
 #endif
 #if COLOUR_COUNT > 2
-    c = layer_over_picture(c, u_colour2, COLOUR_FRAME(2), geo_footprint);
+    c = layer_over_picture(c, u_colour2, LAYER_FRAME(u_colour, 2), u_colour_modes.z, g,
+                           log2_footprint);
 #endif
 #if COLOUR_COUNT > 3
-    c = layer_over_picture(c, u_colour3, COLOUR_FRAME(3), geo_footprint);
+    c = layer_over_picture(c, u_colour3, LAYER_FRAME(u_colour, 3), u_colour_modes.w, g,
+                           log2_footprint);
 #endif
     return c;
 }
 
-float terrain_water(vec3 geo_footprint)
+float terrain_water(Ground g, float log2_footprint)
 {
     float w = 0.0;
 #if WATER_COUNT > 0
-    w = layer_over_mask(w, u_water0, WATER_FRAME(0), geo_footprint);
+    w = layer_over_mask(w, u_water0, LAYER_FRAME(u_water, 0), u_water_modes.x, g, log2_footprint);
 #endif
 #if WATER_COUNT > 1
-    w = layer_over_mask(w, u_water1, WATER_FRAME(1), geo_footprint);
+    w = layer_over_mask(w, u_water1, LAYER_FRAME(u_water, 1), u_water_modes.y, g, log2_footprint);
 #endif
 #if WATER_COUNT > 2
-    w = layer_over_mask(w, u_water2, WATER_FRAME(2), geo_footprint);
+    w = layer_over_mask(w, u_water2, LAYER_FRAME(u_water, 2), u_water_modes.z, g, log2_footprint);
 #endif
 #if WATER_COUNT > 3
-    w = layer_over_mask(w, u_water3, WATER_FRAME(3), geo_footprint);
+    w = layer_over_mask(w, u_water3, LAYER_FRAME(u_water, 3), u_water_modes.w, g, log2_footprint);
 #endif
     return w;
 }
 
-vec3 terrain_lights(vec3 geo_footprint)
+vec3 terrain_lights(Ground g, float log2_footprint)
 {
     vec3 c = vec3(0.0);
 #if LIGHTS_COUNT > 0
-    c = layer_over_picture(c, u_lights0, LIGHTS_FRAME(0), geo_footprint);
+    c = layer_over_picture(c, u_lights0, LAYER_FRAME(u_lights, 0), u_lights_modes.x, g,
+                           log2_footprint);
 #endif
 #if LIGHTS_COUNT > 1
-    c = layer_over_picture(c, u_lights1, LIGHTS_FRAME(1), geo_footprint);
+    c = layer_over_picture(c, u_lights1, LAYER_FRAME(u_lights, 1), u_lights_modes.y, g,
+                           log2_footprint);
 #endif
 #if LIGHTS_COUNT > 2
-    c = layer_over_picture(c, u_lights2, LIGHTS_FRAME(2), geo_footprint);
+    c = layer_over_picture(c, u_lights2, LAYER_FRAME(u_lights, 2), u_lights_modes.z, g,
+                           log2_footprint);
 #endif
 #if LIGHTS_COUNT > 3
-    c = layer_over_picture(c, u_lights3, LIGHTS_FRAME(3), geo_footprint);
+    c = layer_over_picture(c, u_lights3, LAYER_FRAME(u_lights, 3), u_lights_modes.w, g,
+                           log2_footprint);
 #endif
     return c;
 }
@@ -202,31 +309,34 @@ void main()
     vec3 first = texelFetch(u_position, ivec2(gl_FragCoord.xy) & ~1, 0).xyz;
     log2_footprint = log2(max(length(first) * u_view.y, 1e-3)) + 1.0;
 #endif
-    vec3 geo_footprint = vec3(geo, log2_footprint);
-
+    Ground ground = ground_at(geo);
+    Tangent tangent;
+    tangent.ground = ground;
+    tangent.log2_footprint = log2_footprint;
+    tangent.up = up;
     vec3 east = cross(vec3(0.0, u_anchor.y, u_anchor.x), up);
-    float cos_latitude = max(length(east), 1e-5);
-    east /= cos_latitude;
-    vec3 north = cross(up, east);
-    vec3 slope = terrain_slope(geo_footprint, cos_latitude);
-    vec3 root = terrain_albedo(geo_footprint);
-    float water = terrain_water(geo_footprint);
+    tangent.cos_latitude = max(length(east), 1e-5);
+    tangent.east = east / tangent.cos_latitude;
+    tangent.north = cross(up, tangent.east);
+    vec4 slope = terrain_slope(tangent);
+    vec3 root = terrain_albedo(ground, log2_footprint);
+    float water = terrain_water(ground, log2_footprint);
 #ifdef HAS_DETAIL
     // On the sphere and not on the mesh, whose vertices move with the camera.
-    vec4 noise = detail_noise(local - up * p.w, log2_footprint - 0.3 * log2(slant), slope.z);
+    vec4 noise = detail_noise(local - up * p.w, log2_footprint - 0.3 * log2(slant), slope.w);
     // Plains are not quite plain, and water is.
     float land = 1.0 - water;
-    float rough = land * detail_slope(length(slope.xy), min(slope.z, 20.0));
-    slope.xy += rough * vec2(dot(noise.xyz, east), dot(noise.xyz, north));
-    root = detail_albedo(root, land * noise.w, land * length(slope.xy));
+    float rough = land * detail_slope(length(slope.xyz), min(slope.w, 20.0));
+    slope.xyz += rough * (noise.xyz - up * dot(noise.xyz, up));
+    root = detail_albedo(root, land * noise.w, land * length(slope.xyz));
 #endif
-    vec3 normal = normalize(up - slope.x * east - slope.y * north);
+    vec3 normal = normalize(up - slope.xyz);
 
     float is_ground = p.w > -1e8 ? 1.0 : 0.0;
     o_albedo_water = is_ground * vec4(root, water);
     float sun = terrain_sun_visibility(p.xyz, p.w);
     // A row times a matrix: the transpose turns local axes back into the planet's.
     o_normal_sun = is_ground * vec4(normal * u_local_from_planet, sun);
-    o_lights = is_ground * vec4(terrain_lights(geo_footprint), 1.0);
-    o_region = is_ground * vec4(terrain_albedo(vec3(geo, max(log2_footprint, u_region))), 1.0);
+    o_lights = is_ground * vec4(terrain_lights(ground, log2_footprint), 1.0);
+    o_region = is_ground * vec4(terrain_albedo(ground, max(log2_footprint, u_region)), 1.0);
 }

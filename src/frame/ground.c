@@ -3,6 +3,7 @@
 #include "frame/ground.h"
 
 #include "frame/daylight.h"
+#include "shared/blend.glsl"
 #include "terrain/projective.h"
 
 #include <math.h>
@@ -16,10 +17,22 @@ static enum surface_kind choose_kind(enum layer_kind kind)
         return SURFACE_COLOUR;
     case LAYER_WATER:
         return SURFACE_WATER;
+    case LAYER_NORMAL:
+        return SURFACE_NORMAL;
     case LAYER_LIGHTS:
         break;
     }
     return SURFACE_LIGHTS;
+}
+
+static double choose_mode(enum layer_blend blend)
+{
+    static const double MODES[] = {[LAYER_BLEND_OVER] = BLEND_OVER,
+                                   [LAYER_BLEND_ADD] = BLEND_ADD,
+                                   [LAYER_BLEND_MULTIPLY] = BLEND_MULTIPLY,
+                                   [LAYER_BLEND_MAX] = BLEND_MAX,
+                                   [LAYER_BLEND_MIN] = BLEND_MIN};
+    return MODES[blend];
 }
 
 void ground_describe(const struct trl_scene *scene,
@@ -32,12 +45,14 @@ void ground_describe(const struct trl_scene *scene,
                                                 .is_optional = layer->is_optional,
                                                 .scale = layer->scale,
                                                 .offset_m = layer->offset_m,
-                                                .feather_rad = layer->feather_deg * M_PI / 180};
+                                                .feather_rad = layer->feather_deg * M_PI / 180,
+                                                .mode = choose_mode(layer->blend)};
     }
     *out = surface_desc_default();
     out->radius_m = scene->medium.ground_radius_m;
     out->layer_count = scene->layer_count;
     out->layers = layers;
+    out->exaggeration = scene->exaggeration;
     out->detail = (struct detail_desc){scene->detail.roughness, scene->detail.albedo_variation,
                                        scene->detail.smallest_m};
     daylight_ground_albedo(&scene->medium, out->default_albedo);

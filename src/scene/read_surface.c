@@ -3,25 +3,30 @@
 #include "scene/read.h"
 
 // In the order of enum layer_kind.
-static const char *const kind_keys[] = {"elevation", "colour", "water", "lights", NULL};
+static const char *const kind_keys[] = {"elevation", "colour", "water", "lights", "normal", NULL};
 
 // What a layer of a kind may say beside its file.
-static const char *const extra_keys[][6] = {
-    [LAYER_ELEVATION] = {"name", "optional", "feather_deg", "scale", "offset_m", NULL},
-    [LAYER_COLOUR] = {"name", "optional", "feather_deg", NULL},
-    [LAYER_WATER] = {"name", "optional", "feather_deg", NULL},
-    [LAYER_LIGHTS] = {"name", "optional", "feather_deg", "radiance_cd_m2", NULL},
+static const char *const extra_keys[][7] = {
+    [LAYER_ELEVATION] = {"name", "optional", "feather_deg", "blend", "scale", "offset_m", NULL},
+    [LAYER_COLOUR] = {"name", "optional", "feather_deg", "blend", NULL},
+    [LAYER_WATER] = {"name", "optional", "feather_deg", "blend", NULL},
+    [LAYER_LIGHTS] = {"name", "optional", "feather_deg", "blend", "radiance_cd_m2", NULL},
+    [LAYER_NORMAL] = {"name", "optional", "feather_deg", "blend", NULL},
 };
 
-static const char *const any_extra_keys[] = {"name",     "optional",       "feather_deg", "scale",
-                                             "offset_m", "radiance_cd_m2", NULL};
+static const char *const any_extra_keys[] = {"name",  "optional", "feather_deg",    "blend",
+                                             "scale", "offset_m", "radiance_cd_m2", NULL};
+
+// In the order of enum layer_blend.
+static const char *const blend_words[] = {"over", "add", "multiply", "max", "min", NULL};
+static const char *const normal_blend_words[] = {"over", "add", NULL};
 
 static trl_result read_kind(const struct scene_node *node, enum layer_kind *kind)
 {
     const struct scene_choice choice = {.forms = kind_keys,
                                         .extra = any_extra_keys,
                                         .what = "an object with one of elevation, colour, water, "
-                                                "lights"};
+                                                "lights, normal"};
     size_t index = 0;
     const trl_result result = scene_node_choose(node, &choice, &index);
     *kind = (enum layer_kind)index;
@@ -31,7 +36,7 @@ static trl_result read_kind(const struct scene_node *node, enum layer_kind *kind
 // Keys of another kind of layer are unknown keys of this one.
 static trl_result check_extras(const struct scene_node *node, enum layer_kind kind)
 {
-    const char *known[8] = {kind_keys[kind]};
+    const char *known[9] = {kind_keys[kind]};
     for (size_t i = 0; extra_keys[kind][i]; i++) {
         known[i + 1] = extra_keys[kind][i];
     }
@@ -57,6 +62,19 @@ static trl_result read_numbers(const struct scene_node *node, struct layer *out)
     if (result == TRL_OK) {
         result = scene_node_number_or(&radiance, &luminances, &out->radiance_cd_m2);
     }
+    return result;
+}
+
+static trl_result read_blend(const struct scene_node *node, struct layer *out)
+{
+    const struct scene_node blend = scene_node_member(node, "blend");
+    size_t index = LAYER_BLEND_OVER;
+    const trl_result result =
+        blend.value
+            ? scene_node_word(&blend, out->kind == LAYER_NORMAL ? normal_blend_words : blend_words,
+                              &index)
+            : TRL_OK;
+    out->blend = (enum layer_blend)index;
     return result;
 }
 
@@ -92,6 +110,9 @@ static trl_result read_layer(const struct scene_node *node, struct layer *out)
     if (result == TRL_OK) {
         result = read_numbers(node, out);
     }
+    if (result == TRL_OK) {
+        result = read_blend(node, out);
+    }
     const struct scene_node optional = scene_node_member(node, "optional");
     return result == TRL_OK ? scene_node_bool_or(&optional, &out->is_optional) : result;
 }
@@ -125,11 +146,12 @@ static trl_result read_detail(const struct scene_node *node, struct scene_detail
 trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *out)
 {
     const struct scene_node surface = scene_node_member(root, "surface");
+    out->exaggeration = 1;
     if (!surface.value) {
         return TRL_OK;
     }
-    trl_result result =
-        scene_node_check_keys(&surface, (const char *const[]){"layers", "detail", NULL});
+    trl_result result = scene_node_check_keys(
+        &surface, (const char *const[]){"layers", "exaggeration", "detail", NULL});
     const struct scene_node layers = scene_node_member(&surface, "layers");
     if (result == TRL_OK) {
         result = scene_node_check_array(&layers, SCENE_MAX_LAYERS, "a list of layers");
@@ -138,6 +160,11 @@ trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *ou
         const struct scene_node element = scene_node_element(&layers, i);
         out->layer_count = i + 1;
         result = read_layer(&element, &out->layers[i]);
+    }
+    const struct scene_range exaggerations = {.min = 0, .is_min_open = true, .max = 1000};
+    const struct scene_node exaggeration = scene_node_member(&surface, "exaggeration");
+    if (result == TRL_OK) {
+        result = scene_node_number_or(&exaggeration, &exaggerations, &out->exaggeration);
     }
     const struct scene_node detail = scene_node_member(&surface, "detail");
     return result == TRL_OK ? read_detail(&detail, &out->detail) : result;

@@ -14,7 +14,17 @@ enum layer_kind {
     LAYER_ELEVATION, // metres above the reference sphere
     LAYER_COLOUR,    // sRGB picture of the ground's albedo
     LAYER_WATER,     // 1 = open water
-    LAYER_LIGHTS     // sRGB picture of artificial light at night
+    LAYER_LIGHTS,    // sRGB picture of artificial light at night
+    LAYER_NORMAL     // picture of normals of the map
+};
+
+// How a layer is laid over those of its kind below it, in the order of shared/blend.glsl.
+enum layer_blend {
+    LAYER_BLEND_OVER,
+    LAYER_BLEND_ADD,
+    LAYER_BLEND_MULTIPLY,
+    LAYER_BLEND_MAX,
+    LAYER_BLEND_MIN
 };
 
 // One raster of the surface; later layers of a kind lie over earlier ones where they have data.
@@ -24,10 +34,11 @@ struct layer {
     char *file; // owned; as in the scene
     char *path; // owned; where it was found: beside the scene, else in the data folder; the latter
                 // also when it is in neither
-    bool is_optional;      // a missing file is no error
-    double scale;          // elevation: metres per unit of the raster
-    double offset_m;       // elevation
-    double feather_deg;    // width of the blend at the layer's border
+    bool is_optional;   // a missing file is no error
+    double scale;       // elevation: metres per unit of the raster
+    double offset_m;    // elevation
+    double feather_deg; // width of the blend at the layer's border and gaps
+    enum layer_blend blend;
     double radiance_cd_m2; // lights: luminance of white
 };
 
@@ -68,6 +79,7 @@ struct trl_scene {
     trl_rayleigh_desc rayleigh;
     size_t layer_count;
     struct layer layers[SCENE_MAX_LAYERS];
+    double exaggeration; // of all heights
     struct scene_detail detail;
     struct scene_stars stars;
     size_t body_count;

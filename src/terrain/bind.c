@@ -3,85 +3,102 @@
 // The surface as the shaders see it: uniforms and defines of shaders/terrain/layers.glsl.
 #include "terrain/surface.h"
 
-#include "shared/shared.glsl"
+#include "shared/blend.glsl"
 
 #include <stdio.h>
 
-static const char *const KIND_DEFINES[SURFACE_KIND_COUNT] = {"ELEVATION_COUNT", "COLOUR_COUNT",
-                                                             "WATER_COUNT", "LIGHTS_COUNT"};
+static const char *const KIND_DEFINES[SURFACE_KIND_COUNT] = {
+    "ELEVATION_COUNT", "COLOUR_COUNT", "WATER_COUNT", "LIGHTS_COUNT", "NORMAL_COUNT"};
 static const char *const KIND_UNIFORMS[SURFACE_KIND_COUNT] = {"u_elevation", "u_colour", "u_water",
-                                                              "u_lights"};
-static const double UNBOUNDED = 9; // radians: more than any distance on a sphere
+                                                              "u_lights", "u_normal"};
+enum { FRAME_ROWS = 4 }; // vec4 of a layer
+
+static void add_define(struct surface_defines *out, const char *name)
+{
+    snprintf(out->text[out->count], SURFACE_DEFINE_LENGTH, "%s", name);
+    out->list[out->count] = out->text[out->count];
+    out->count++;
+}
 
 void surface_get_defines(const struct surface *surface, size_t elevations,
                          struct surface_defines *out)
 {
     *out = (struct surface_defines){.count = 0};
+    bool has_polar = false, has_modes = false;
     for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
-        const size_t count = k == SURFACE_ELEVATION ? elevations : surface->counts[k];
-        snprintf(out->text[out->count], SURFACE_DEFINE_LENGTH, "%s %zu", KIND_DEFINES[k], count);
-        out->list[out->count] = out->text[out->count];
-        out->count++;
+        char text[SURFACE_DEFINE_LENGTH];
+        const size_t count =
+            k == SURFACE_ELEVATION ? elevations : surface_count_seen(surface, (enum surface_kind)k);
+        snprintf(text, sizeof text, "%s %zu", KIND_DEFINES[k], count);
+        add_define(out, text);
+        for (size_t i = 0; i < surface->counts[k]; i++) {
+            has_polar = has_polar || surface->layers[k][i].frame.pole != 0;
+            has_modes = has_modes || surface->layers[k][i].mode != BLEND_OVER;
+        }
     }
     if (!surface->gpu->caps.has_float_linear) {
-        snprintf(out->text[out->count], SURFACE_DEFINE_LENGTH, "NO_FLOAT_LINEAR");
-        out->list[out->count] = out->text[out->count];
-        out->count++;
+        add_define(out, "NO_FLOAT_LINEAR");
+    }
+    if (has_polar) {
+        add_define(out, "HAS_POLAR");
+    }
+    if (has_modes) {
+        add_define(out, "HAS_MODES");
     }
 }
 
 static void describe_layer(const struct terrain_layer *layer, const struct anchor *anchor,
-                           double radius_m, float rows[3][4])
+                           double radius_m, float rows[FRAME_ROWS][4])
 {
     const struct layer_frame *f = &layer->frame;
-    double east = anchor->longitude_rad - f->centre_longitude;
-    east -= 2 * SHARED_PI * floor(east / (2 * SHARED_PI) + 0.5);
-    const double values[3][4] = {{east, anchor->latitude_rad - f->centre_latitude,
-                                  0.5 / f->half_width, 0.5 / f->half_height},
-                                 {f->is_whole_circle ? UNBOUNDED : f->half_width,
-                                  f->touches_north ? UNBOUNDED : f->half_height,
-                                  f->touches_south ? UNBOUNDED : f->half_height,
-                                  1 / fmax(f->feather, 1e-9)},
-                                 {layer->texture_scale_m, f->texel_height,
-                                  log2(f->texel_height * radius_m), layer->texture_offset_m}};
-    for (int j = 0; j < 3; j++) {
-        for (int i = 0; i < 4; i++) {
-            rows[j][i] = (float)values[j][i];
-        }
+    const struct layer_view view = layer_view_from(f, anchor->latitude_rad, anchor->longitude_rad);
+    const double texel[4] = {layer->texture_scale_m, f->texel_height,
+                             log2(f->texel_height * radius_m), layer->texture_offset_m};
+    for (int i = 0; i < 4; i++) {
+        rows[0][i] = (float)view.place[i];
+        rows[1][i] = (float)view.shape[i];
+        rows[2][i] = (float)texel[i];
+        rows[3][i] = (float)view.turn[i];
     }
 }
 
-static void bind_kind(const struct surface *surface, enum surface_kind kind,
-                      const struct anchor *anchor, struct gpu_program *program)
+struct binding {
+    const struct surface *surface;
+    const struct surface_selection *selection;
+    const struct anchor *anchor;
+};
+
+static void bind_kind(const struct binding *binding, enum surface_kind kind,
+                      struct gpu_program *program)
 {
-    static const char *const PARTS[3] = {"_place", "_shape", "_texel"};
-    float values[3][SURFACE_MAX_LAYERS][4] = {0};
+    const struct surface *surface = binding->surface;
+    const struct surface_selection *selection = binding->selection;
+    float rows[SURFACE_SEEN_LAYERS][FRAME_ROWS][4] = {0};
+    float modes[4] = {0};
     char name[32];
-    for (size_t i = 0; i < surface->counts[kind]; i++) {
-        const struct terrain_layer *layer = &surface->layers[kind][i];
-        float rows[3][4];
-        describe_layer(layer, anchor, surface->radius_m, rows);
-        for (int j = 0; j < 3; j++) {
-            for (int c = 0; c < 4; c++) {
-                values[j][i][c] = rows[j][c];
-            }
-        }
+    for (size_t i = 0; i < selection->counts[kind]; i++) {
+        const struct terrain_layer *layer = &surface->layers[kind][selection->indices[kind][i]];
+        describe_layer(layer, binding->anchor, surface->radius_m, rows[i]);
+        modes[i] = (float)layer->mode;
         snprintf(name, sizeof name, "%s%zu", KIND_UNIFORMS[kind], i);
         gpu_program_set_texture(program, name, &layer->texture);
     }
-    for (int j = 0; j < 3 && surface->counts[kind] > 0; j++) {
-        snprintf(name, sizeof name, "%s%s", KIND_UNIFORMS[kind], PARTS[j]);
-        gpu_program_set_vec4s(program, name, values[j][0], SURFACE_MAX_LAYERS);
+    if (selection->counts[kind] > 0) {
+        gpu_program_set_vec4s(program, KIND_UNIFORMS[kind], rows[0][0],
+                              (size_t)SURFACE_SEEN_LAYERS * FRAME_ROWS);
+        snprintf(name, sizeof name, "%s_modes", KIND_UNIFORMS[kind]);
+        gpu_program_set_vec4(program, name, modes);
     }
 }
 
-void surface_bind(const struct surface *surface, const struct anchor *anchor,
-                  struct gpu_program *program)
+void surface_bind(const struct surface *surface, const struct surface_selection *selection,
+                  const struct anchor *anchor, struct gpu_program *program)
 {
     const float place[4] = {(float)sin(anchor->latitude_rad), (float)cos(anchor->latitude_rad),
                             (float)anchor->latitude_rad, (float)surface->radius_m};
     gpu_program_set_vec4(program, "u_anchor", place);
+    const struct binding binding = {surface, selection, anchor};
     for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
-        bind_kind(surface, (enum surface_kind)k, anchor, program);
+        bind_kind(&binding, (enum surface_kind)k, program);
     }
 }

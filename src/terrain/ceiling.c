@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "terrain/ceiling.h"
 
+#include "shared/blend.glsl"
 #include "shared/cubic.glsl"
 
 #include <math.h>
@@ -173,11 +174,52 @@ static double highest_of(const struct ceiling_pyramid *pyramid, const struct lay
 
 static bool reaches_layer(const struct layer_frame *frame, const struct reach *reach)
 {
-    double east = reach->longitude - frame->centre_longitude;
+    double east = reach->longitude - frame->centre_x;
     east -= 2 * SHARED_PI * floor(east / (2 * SHARED_PI) + 0.5);
-    const double north = reach->latitude - frame->centre_latitude;
+    const double north = reach->latitude - frame->centre_y;
     return (frame->is_whole_circle || fabs(east) <= frame->half_width + reach->east) &&
            fabs(north) <= frame->half_height + reach->north + frame->texel_height;
+}
+
+// The highest that a layer about a pole has within an angle of a direction.
+static double highest_about_pole(const struct ceiling_pyramid *pyramid, struct vec3 direction,
+                                 double angle_rad)
+{
+    const struct layer_frame *frame = &pyramid->layer->frame;
+    const struct vec3 up = vec3_normalize(direction);
+    const double away = acos(fmax(-1, fmin(1, vec3_dot(up, frame->direction))));
+    if (away > angle_rad + frame->reach_rad + frame->texel_height) {
+        return -INFINITY;
+    }
+    // The farther from the pole, the larger the map: 1 / cos^2 of half the angle, and 1 % for what
+    // an ellipsoid adds.
+    const double from_pole = acos(fmax(-1, fmin(1, frame->pole * up.z))) + angle_rad;
+    if (from_pole > 2) {
+        return pyramid->all;
+    }
+    const double half = cos(from_pole / 2);
+    const double reach = 1.01 * angle_rad / (half * half);
+    const struct layer_place place =
+        layer_locate(frame, asin(fmax(-1, fmin(1, up.z))), atan2(up.y, up.x));
+    const double texels[2] = {reach / frame->texel_width + 1, reach / frame->texel_height + 1};
+    return highest_of(pyramid, &place, texels);
+}
+
+static double highest_around(const struct ceiling_pyramid *pyramid, const struct reach *reach)
+{
+    const struct layer_frame *frame = &pyramid->layer->frame;
+    const bool is_nearly_round = !frame->is_whole_circle && frame->half_width + reach->east > 3;
+    if (reach->north < 0 || is_nearly_round) {
+        return pyramid->all;
+    }
+    if (!reaches_layer(frame, reach)) {
+        return -INFINITY;
+    }
+    const struct layer_place place = layer_locate(frame, reach->latitude, reach->longitude);
+    // A texel more: places are texels' middles.
+    const double texels[2] = {reach->east / frame->texel_width + 1,
+                              reach->north / frame->texel_height + 1};
+    return highest_of(pyramid, &place, texels);
 }
 
 double terrain_ceiling_m(const struct terrain_ceiling *ceiling, struct vec3 direction,
@@ -187,16 +229,12 @@ double terrain_ceiling_m(const struct terrain_ceiling *ceiling, struct vec3 dire
     double highest = 0; // where no layer is; layers are laid over it
     for (size_t i = 0; i < ceiling->count; i++) {
         const struct ceiling_pyramid *pyramid = &ceiling->pyramids[i];
-        const struct layer_frame *frame = &pyramid->layer->frame;
-        const bool is_nearly_round = !frame->is_whole_circle && frame->half_width + reach.east > 3;
-        if (reach.north < 0 || is_nearly_round) {
-            highest = fmax(highest, pyramid->all);
-        } else if (reaches_layer(frame, &reach)) {
-            const struct layer_place place = layer_locate(frame, reach.latitude, reach.longitude);
-            // A texel more: places are texels' middles.
-            const double texels[2] = {reach.east / frame->texel_width + 1,
-                                      reach.north / frame->texel_height + 1};
-            highest = fmax(highest, highest_of(pyramid, &place, texels));
+        const struct terrain_layer *layer = pyramid->layer;
+        const double high = layer->frame.pole == 0
+                                ? highest_around(pyramid, &reach)
+                                : highest_about_pole(pyramid, direction, angle_rad);
+        if (isfinite(high)) {
+            highest = fmax(highest, blend_whole(layer->mode, highest, high));
         }
     }
     return highest;

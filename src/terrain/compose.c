@@ -27,7 +27,8 @@ trl_result terrain_compose_init(const struct surface *surface, struct terrain_co
 {
     *out = (struct terrain_compose){.gpu = surface->gpu, .surface = surface};
     trl_result result = TRL_OK;
-    for (size_t i = 0; i <= surface->counts[SURFACE_ELEVATION] && result == TRL_OK; i++) {
+    for (size_t i = 0; i <= surface_count_seen(surface, SURFACE_ELEVATION) && result == TRL_OK;
+         i++) {
         result = make_program(out, false, i);
         if (result == TRL_OK && surface->detail.size_count > 0) {
             result = make_program(out, true, i);
@@ -41,39 +42,19 @@ trl_result terrain_compose_init(const struct surface *surface, struct terrain_co
 
 void terrain_compose_finish(struct terrain_compose *compose)
 {
-    for (size_t i = 0; i <= SURFACE_MAX_LAYERS; i++) {
+    for (size_t i = 0; i <= SURFACE_SEEN_LAYERS; i++) {
         gpu_program_finish(&compose->programs[0][i]);
         gpu_program_finish(&compose->programs[1][i]);
     }
     *compose = (struct terrain_compose){0};
 }
 
-// Whether a layer is more than a dot.
-static bool is_layer_large(const struct layer_frame *f, const struct terrain_compose_inputs *in,
-                           double radius_m)
+static struct surface_selection select_layers(const struct surface *surface,
+                                              const struct terrain_compose_inputs *in)
 {
-    if (f->is_whole_circle) {
-        return true;
-    }
-    const struct projection *p = &in->shadow->projection;
-    const struct vec3 middle = vec3_from_lat_lon(f->centre_latitude, f->centre_longitude);
-    const double away = acos(fmax(-1, fmin(1, vec3_dot(middle, p->anchor.up))));
-    const double half = hypot(f->half_width, f->half_height);
-    const double nearest = fmax(p->height_m, (away - half) * radius_m);
-    const double pixel = 2 * in->camera->tan_half_fov_y / in->position->height;
-    return 2 * half * radius_m > LEAST_PIXELS * pixel * nearest;
-}
-
-static size_t count_elevations(const struct surface *surface,
-                               const struct terrain_compose_inputs *in)
-{
-    const struct projection *p = &in->shadow->projection;
-    size_t count = surface_count_elevations(surface, p->anchor.up, p->reach_rad);
-    while (count > 0 && !is_layer_large(&surface->layers[SURFACE_ELEVATION][count - 1].frame, in,
-                                        surface->radius_m)) {
-        count--;
-    }
-    return count;
+    struct surface_eye eye = projection_eye(&in->shadow->projection, surface, 0);
+    eye.least_rad = LEAST_PIXELS * 2 * in->camera->tan_half_fov_y / in->position->height;
+    return surface_select(surface, &eye);
 }
 
 trl_result terrain_compose_draw(struct terrain_compose *compose,
@@ -85,12 +66,14 @@ trl_result terrain_compose_draw(struct terrain_compose *compose,
     const double nearest_m =
         vec3_length(in->camera->position_m) - surface->radius_m - surface->max_altitude_m;
     const bool has_detail = detail_is_seen(&surface->detail, nearest_m * pixel_rad);
-    struct gpu_program *program = &compose->programs[has_detail][count_elevations(surface, in)];
+    const struct surface_selection selection = select_layers(surface, in);
+    struct gpu_program *program =
+        &compose->programs[has_detail][selection.counts[SURFACE_ELEVATION]];
     const struct anchor anchor = anchor_below(in->camera->position_m);
     float local_from_planet[9];
     anchor_local_from_planet(&anchor, local_from_planet);
     const float view[4] = {(float)vec3_length(in->camera->position_m), (float)pixel_rad, 0, 0};
-    surface_bind(surface, &anchor, program);
+    surface_bind(surface, &selection, &anchor, program);
     terrain_shadow_bind(in->shadow, in->camera, program);
     if (has_detail) {
         detail_bind(&surface->detail, &anchor, in->camera->position_m, program);

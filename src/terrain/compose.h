@@ -13,7 +13,7 @@ struct terrain_compose {
     const struct surface *surface;
     // One for each number of elevation layers that are looked at, without detail and with: what is
     // out of sight costs nothing.
-    struct gpu_program programs[2][SURFACE_MAX_LAYERS + 1];
+    struct gpu_program programs[2][SURFACE_SEEN_LAYERS + 1];
 };
 
 // TRL_ERROR_GPU; TRL_ERROR_MEMORY. Must not outlive the surface.

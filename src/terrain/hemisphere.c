@@ -50,7 +50,8 @@ struct hemisphere {
     struct chunk chunks[CHUNKS];
     struct gpu_texture positions;
     struct gpu_target target;
-    struct gpu_program grid_program, mesh_program;
+    struct gpu_program grid_programs[SURFACE_SEEN_LAYERS + 1]; // by the layers in reach
+    struct gpu_program mesh_program;
     struct gpu_mesh meshes[MESHES]; // of every vertex, every second, every fourth
 };
 
@@ -105,15 +106,19 @@ static trl_result make_mesh(struct hemisphere *h, uint32_t step, struct gpu_mesh
 
 static trl_result make_programs(struct hemisphere *h)
 {
-    struct surface_defines defines;
-    surface_get_defines(h->surface, h->surface->counts[SURFACE_ELEVATION], &defines);
-    const struct gpu_program_desc grid = {.vertex = "lib/fullscreen.vert",
-                                          .fragment = "terrain/grid.frag",
-                                          .defines = defines.list,
-                                          .define_count = defines.count};
+    trl_result result = TRL_OK;
+    const size_t most = surface_count_seen(h->surface, SURFACE_ELEVATION);
+    for (size_t i = 0; i <= most && result == TRL_OK; i++) {
+        struct surface_defines defines;
+        surface_get_defines(h->surface, i, &defines);
+        const struct gpu_program_desc grid = {.vertex = "lib/fullscreen.vert",
+                                              .fragment = "terrain/grid.frag",
+                                              .defines = defines.list,
+                                              .define_count = defines.count};
+        result = gpu_program_init(h->gpu, &grid, &h->grid_programs[i]);
+    }
     const struct gpu_program_desc mesh = {.vertex = "terrain/mesh.vert",
                                           .fragment = "terrain/mesh.frag"};
-    const trl_result result = gpu_program_init(h->gpu, &grid, &h->grid_program);
     return result == TRL_OK ? gpu_program_init(h->gpu, &mesh, &h->mesh_program) : result;
 }
 
@@ -180,12 +185,15 @@ static trl_result draw_grid(struct hemisphere *h)
     const float grid[4] = {CELLS, (float)h->power, (float)h->projection.lift, 0};
     float planet_from_local[9];
     anchor_planet_from_local(&h->projection.anchor, planet_from_local);
-    surface_bind(h->surface, &h->projection.anchor, &h->grid_program);
-    gpu_program_set_vec4(&h->grid_program, "u_grid", grid);
-    gpu_program_set_mat3(&h->grid_program, "u_planet_from_local", planet_from_local);
+    const struct surface_eye eye = projection_eye(&h->projection, h->surface, 0);
+    const struct surface_selection seen = surface_select(h->surface, &eye);
+    struct gpu_program *program = &h->grid_programs[seen.counts[SURFACE_ELEVATION]];
+    surface_bind(h->surface, &seen, &h->projection.anchor, program);
+    gpu_program_set_vec4(program, "u_grid", grid);
+    gpu_program_set_mat3(program, "u_planet_from_local", planet_from_local);
     const struct gpu_pass pass = {.target = &h->target};
     gpu_pass_begin(h->gpu, &pass);
-    return gpu_draw_fullscreen(&h->grid_program, "terrain heights");
+    return gpu_draw_fullscreen(program, "terrain heights");
 }
 
 static trl_result update(struct mesher *base, const struct camera *camera)
@@ -309,7 +317,9 @@ static void destroy(struct mesher *base)
     for (int i = 0; i < MESHES; i++) {
         gpu_mesh_finish(&h->meshes[i]);
     }
-    gpu_program_finish(&h->grid_program);
+    for (int i = 0; i <= SURFACE_SEEN_LAYERS; i++) {
+        gpu_program_finish(&h->grid_programs[i]);
+    }
     gpu_program_finish(&h->mesh_program);
     gpu_target_finish(&h->target);
     gpu_texture_finish(&h->positions);

@@ -3,81 +3,23 @@
 #include "terrain/layer.h"
 
 #include "shared/cubic.glsl"
+#include "terrain/voids.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { STRIP_ROWS = 128 }; // converted and uploaded at a time: what is held twice stays small
 
-static double radians(double degrees)
-{
-    return degrees * (SHARED_PI / 180);
-}
-
 static struct raster_window texture_window(const struct raster *raster, const struct gpu *gpu)
 {
     return raster_window_whole(raster, gpu ? gpu->caps.max_texture_size : 0);
 }
 
-struct layer_frame layer_frame_of(const struct raster *raster, const struct gpu *gpu,
-                                  double feather)
+struct layer_frame layer_frame_for(const struct raster *raster, const struct gpu *gpu,
+                                   double feather)
 {
     const struct raster_window window = texture_window(raster, gpu);
-    const double width = raster->pixel_width_deg * raster->width;
-    const double height = raster->pixel_height_deg * raster->height;
-    return (struct layer_frame){
-        .width = window.out_width,
-        .height = window.out_height,
-        .centre_latitude = radians(raster->north_deg - height / 2),
-        .centre_longitude = radians(raster->west_deg + width / 2),
-        .half_width = radians(width / 2),
-        .half_height = radians(height / 2),
-        .texel_width = radians(width / window.out_width),
-        .texel_height = radians(height / window.out_height),
-        .feather = feather,
-        .is_whole_circle = raster->is_whole_circle,
-        // Half a pixel: rasters whose nodes lie on the poles, and those that end just before.
-        .touches_north = raster->north_deg > 90 - raster->pixel_height_deg / 2,
-        .touches_south = raster->south_deg < -90 + raster->pixel_height_deg / 2};
-}
-
-// 0 at a border, 1 from the feather inward.
-static double weigh_border(double inside, double feather)
-{
-    if (inside < 0) {
-        return 0;
-    }
-    const double t = feather > 0 ? fmin(inside / feather, 1) : 1;
-    return t * t * (3 - 2 * t);
-}
-
-struct layer_place layer_locate(const struct layer_frame *f, double latitude, double longitude)
-{
-    double east = longitude - f->centre_longitude;
-    east -= 2 * SHARED_PI * floor(east / (2 * SHARED_PI) + 0.5);
-    const double north = latitude - f->centre_latitude;
-    double inside = f->is_whole_circle ? 9 : f->half_width - fabs(east);
-    inside = fmin(inside, f->touches_north ? 9 : f->half_height - north);
-    inside = fmin(inside, f->touches_south ? 9 : f->half_height + north);
-    return (struct layer_place){.x = (east + f->half_width) / f->texel_width - 0.5,
-                                .y = (f->half_height - north) / f->texel_height - 0.5,
-                                .weight = weigh_border(inside, f->feather)};
-}
-
-size_t layer_texel_index(const struct layer_frame *f, int64_t x, int64_t y)
-{
-    const int64_t width = f->width;
-    const int64_t height = f->height;
-    if (((y < 0 && f->touches_north) || (y >= height && f->touches_south)) && f->is_whole_circle) {
-        y = y < 0 ? -1 - y : 2 * height - 1 - y;
-        x += width / 2;
-    }
-    y = y < 0 ? 0 : y >= height ? height - 1 : y;
-    if (f->is_whole_circle) {
-        x = ((x % width) + width) % width;
-    }
-    x = x < 0 ? 0 : x >= width ? width - 1 : x;
-    return (size_t)(y * width + x);
+    return layer_frame_of(raster, window.out_width, window.out_height, feather);
 }
 
 double layer_texel(const struct terrain_layer *layer, int64_t x, int64_t y)
@@ -85,6 +27,16 @@ double layer_texel(const struct terrain_layer *layer, int64_t x, int64_t y)
     const struct layer_heights *h = &layer->heights;
     const size_t i = layer_texel_index(&layer->frame, x, y);
     return h->offset_m + h->scale * (h->shorts ? (double)h->shorts[i] : (double)h->floats[i]);
+}
+
+void layer_set_texel(struct layer_heights *h, size_t i, double metres)
+{
+    const double value = (metres - h->offset_m) / h->scale;
+    if (h->shorts) {
+        h->shorts[i] = (int16_t)lrint(fmax(INT16_MIN, fmin(INT16_MAX, value)));
+    } else {
+        h->floats[i] = (float)value;
+    }
 }
 
 double layer_sample(const struct terrain_layer *layer, double x, double y)
@@ -103,16 +55,6 @@ double layer_sample(const struct terrain_layer *layer, double x, double y)
     return cubic_blend(y - (double)row, rows[0], rows[1], rows[2], rows[3]);
 }
 
-static void set_texel(struct layer_heights *h, size_t i, double metres)
-{
-    const double value = (metres - h->offset_m) / h->scale;
-    if (h->shorts) {
-        h->shorts[i] = (int16_t)lrint(fmax(INT16_MIN, fmin(INT16_MAX, value)));
-    } else {
-        h->floats[i] = (float)value;
-    }
-}
-
 static trl_result read_texels(const struct raster *raster, struct terrain_layer *layer)
 {
     const struct raster_window w =
@@ -128,30 +70,12 @@ static trl_result read_texels(const struct raster *raster, struct terrain_layer 
     return h->shorts ? raster_read_int16(raster, &w, 0, h->shorts) : TRL_ERROR_MEMORY;
 }
 
-static void fill_void_row(struct terrain_layer *layer, const struct raster *raster,
-                          const struct layer_fill *below, uint32_t y)
-{
-    const struct layer_frame *f = &layer->frame;
-    struct layer_heights *h = &layer->heights;
-    const double latitude = f->centre_latitude + f->half_height - (y + 0.5) * f->texel_height;
-    for (uint32_t x = 0; x < f->width; x++) {
-        const size_t i = (size_t)y * f->width + x;
-        const bool is_void =
-            h->floats ? !isfinite(h->floats[i]) : (double)h->shorts[i] == raster->nodata;
-        if (is_void) {
-            const double longitude =
-                f->centre_longitude - f->half_width + (x + 0.5) * f->texel_width;
-            set_texel(h, i, below->height(below->user, latitude, longitude));
-        }
-    }
-}
-
 // Mean over as many columns as a texel is narrower than high: all of them in the last row, so that
 // the pole has one height, and no spikes around it.
 static void level_row(struct terrain_layer *layer, uint32_t y, double *sums)
 {
     const struct layer_frame *f = &layer->frame;
-    const double latitude = f->centre_latitude + f->half_height - (y + 0.5) * f->texel_height;
+    const double latitude = layer_geo_of(f, 0, y).latitude;
     const double columns = f->texel_height / (f->texel_width * fmax(cos(latitude), 1e-9));
     const int64_t width = f->width;
     // Half a circle at the last but one row already covers both sides of the pole.
@@ -162,7 +86,7 @@ static void level_row(struct terrain_layer *layer, uint32_t y, double *sums)
     }
     for (int64_t x = 0; x < width; x++) {
         const double mean = (sums[x + 2 * half + 1] - sums[x]) / (double)(2 * half + 1);
-        set_texel(&layer->heights, (size_t)y * f->width + (size_t)x, mean);
+        layer_set_texel(&layer->heights, (size_t)y * f->width + (size_t)x, mean);
     }
 }
 
@@ -195,13 +119,8 @@ trl_result layer_read_heights(const struct raster *raster, const struct layer_fi
     if (result != TRL_OK) {
         return result;
     }
-    if (layer->heights.floats || raster->has_nodata) {
-#pragma omp parallel for schedule(dynamic, 16)
-        for (uint32_t y = 0; y < layer->frame.height; y++) {
-            fill_void_row(layer, raster, below, y);
-        }
-    }
-    return level_poles(layer);
+    const trl_result filled = voids_fill_heights(raster, below, layer);
+    return filled == TRL_OK ? level_poles(layer) : filled;
 }
 
 static struct gpu_texture_desc describe_texture(const struct layer_frame *frame)
@@ -385,6 +304,9 @@ trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
     uint8_t *rgba = mem_alloc(layer->ctx, count, 4);
     trl_result result = rgba ? raster_read_rgba8(raster, &w, rgba) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
+        result = voids_fill_picture(raster, &layer->frame, rgba);
+    }
+    if (result == TRL_OK) {
         uint8_t table[256];
         make_root_table(table);
 #pragma omp parallel for
@@ -398,6 +320,22 @@ trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
     }
     if (rgba == layer->roots) {
         return result;
+    }
+    mem_free(layer->ctx, rgba);
+    return result;
+}
+
+trl_result layer_load_normals(struct gpu *gpu, const struct raster *raster,
+                              struct terrain_layer *layer)
+{
+    const struct raster_window w = texture_window(raster, gpu);
+    uint8_t *rgba = mem_alloc(layer->ctx, (size_t)w.out_width * w.out_height, 4);
+    trl_result result = rgba ? raster_read_rgba8(raster, &w, rgba) : TRL_ERROR_MEMORY;
+    if (result == TRL_OK) {
+        result = voids_fill_picture(raster, &layer->frame, rgba);
+    }
+    if (result == TRL_OK && gpu) {
+        result = upload_bytes(gpu, GPU_FORMAT_RGBA8, rgba, layer);
     }
     mem_free(layer->ctx, rgba);
     return result;

@@ -7,17 +7,7 @@
 
 #include "gpu/program.h"
 #include "gpu/texture.h"
-#include "raster/raster.h"
-
-// Where texels lie. Angles in radians.
-struct layer_frame {
-    uint32_t width, height;
-    double centre_latitude, centre_longitude;
-    double half_width, half_height;
-    double texel_width, texel_height;
-    double feather;
-    bool is_whole_circle, touches_north, touches_south;
-};
+#include "terrain/frame.h"
 
 // Heights on the CPU: one of the two arrays, in units of `scale` from `offset_m`.
 struct layer_heights {
@@ -29,6 +19,7 @@ struct layer_heights {
 struct terrain_layer {
     const trl_context *ctx;
     struct layer_frame frame;
+    double mode;                  // of shared/blend.glsl
     struct layer_heights heights; // of elevation layers only
     uint8_t *roots; // owned; of pictures without a GPU: RGBA, square roots of linear values, north
                     // row first
@@ -37,33 +28,29 @@ struct terrain_layer {
     double texture_scale_m, texture_offset_m;
 };
 
-// A place as columns and rows of a layer, (0, 0) the first texel's centre.
-struct layer_place {
-    double x, y;
-    double weight; // 0 outside; grows to 1 over the feather
-};
-
-// Frame of an opened raster, reduced to what a texture may measure.
-struct layer_frame layer_frame_of(const struct raster *raster, const struct gpu *gpu,
-                                  double feather);
-
-struct layer_place layer_locate(const struct layer_frame *frame, double latitude, double longitude);
-
 // Metres at a texel; columns wrap around and rows run over a pole where the layer does.
 double layer_texel(const struct terrain_layer *layer, int64_t x, int64_t y);
+
+// Sets what one texel holds, as near as its type allows.
+void layer_set_texel(struct layer_heights *heights, size_t index, double metres);
 
 // Metres, with the cubic of shared/cubic.glsl.
 double layer_sample(const struct terrain_layer *layer, double x, double y);
 
-// Texels that are stored beside another: index of (x, y) with the rules above.
-size_t layer_texel_index(const struct layer_frame *frame, int64_t x, int64_t y);
+// Frame of an opened raster, reduced to what a texture may measure (gpu may be NULL).
+struct layer_frame layer_frame_for(const struct raster *raster, const struct gpu *gpu,
+                                   double feather);
 
-// Reads heights, replaces void ones by what `below` says (a function of place), and levels out the
-// rows around a pole, where texels are far narrower than they are high.
+// What gaps of a layer are filled with: a height that lets what is below show (a function of
+// place).
 struct layer_fill {
     double (*height)(const void *user, double latitude, double longitude);
     const void *user;
 };
+
+// Reads heights, fills gaps (voids.h), and levels out the rows around a pole, where texels are far
+// narrower than they are high. TRL_ERROR_INVALID when there are no data at all; TRL_ERROR_IO;
+// TRL_ERROR_MEMORY.
 TRL_MUST_USE trl_result layer_read_heights(const struct raster *raster,
                                            const struct layer_fill *below,
                                            struct terrain_layer *layer);
@@ -71,8 +58,13 @@ TRL_MUST_USE trl_result layer_read_heights(const struct raster *raster,
 // Texture of heights from the heights on the CPU.
 TRL_MUST_USE trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer);
 
-// Texture of a picture, encoded as the square root of the linear value; alpha is its coverage.
+// Texture of a picture, encoded as the square root of the linear value; alpha is its coverage, less
+// toward gaps. TRL_ERROR_INVALID also when it is void everywhere.
 TRL_MUST_USE trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
+                                           struct terrain_layer *layer);
+
+// The same of a picture of normals, which is kept as it is. On the GPU only.
+TRL_MUST_USE trl_result layer_load_normals(struct gpu *gpu, const struct raster *raster,
                                            struct terrain_layer *layer);
 
 // Texture of a mask; its bytes are handed out for the time of loading: free with mem_free.

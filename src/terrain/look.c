@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "terrain/look.h"
 
+#include "shared/blend.glsl"
+
 #include <math.h>
 
 // Of a half texel, the distance of the two heights whose difference is the slope: within it the
@@ -54,7 +56,11 @@ bool surface_picture(const struct surface *surface, enum surface_kind kind, stru
         sample_roots(layer, &place, rgba);
         const double cover = rgba[3] * place.weight;
         for (int c = 0; c < 3; c++) {
-            root[c] += cover * (rgba[c] - root[c]);
+            // Light is added, not its roots.
+            const double value = layer->mode == BLEND_ADD
+                                     ? hypot(root[c], rgba[c])
+                                     : blend_whole(layer->mode, root[c], rgba[c]);
+            root[c] += cover * (value - root[c]);
         }
         is_covered = is_covered || cover > 0;
     }

@@ -27,13 +27,23 @@ bool projection_is_stale(const struct projection *p, const struct camera *camera
     return !p->is_made || vec3_length(vec3_sub(camera->position_m, p->position_m)) > p->threshold_m;
 }
 
+struct surface_eye projection_eye(const struct projection *p, const struct surface *surface,
+                                  double more_rad)
+{
+    return (struct surface_eye){.up = p->anchor.up,
+                                .reach_rad = p->reach_rad + more_rad,
+                                .height_rad = p->height_m / surface->radius_m};
+}
+
 // Height in metres of a texel of the finest elevations in reach.
 static double find_texel(const struct surface *surface, const struct projection *p)
 {
-    const size_t count = surface_count_elevations(surface, p->anchor.up, p->reach_rad);
+    const struct surface_eye eye = projection_eye(p, surface, 0);
+    const struct surface_selection seen = surface_select(surface, &eye);
     double finest = p->reach_rad;
-    for (size_t i = 0; i < count; i++) {
-        finest = fmin(finest, surface->layers[SURFACE_ELEVATION][i].frame.texel_height);
+    for (size_t i = 0; i < seen.counts[SURFACE_ELEVATION]; i++) {
+        const size_t index = seen.indices[SURFACE_ELEVATION][i];
+        finest = fmin(finest, surface->layers[SURFACE_ELEVATION][index].frame.texel_height);
     }
     return finest * surface->radius_m;
 }

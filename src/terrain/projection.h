@@ -32,6 +32,10 @@ struct projection {
 bool projection_is_stale(const struct projection *p, const struct camera *camera);
 struct projection projection_make(const struct surface *surface, const struct camera *camera);
 
+// The eye of surface_select for what a projection shows, and `more_rad` around it.
+struct surface_eye projection_eye(const struct projection *p, const struct surface *surface,
+                                  double more_rad);
+
 // Exponent of the warp for which ring `ring` of `rings` of a grid that reaches 1 at the last lies
 // at `near`; within [1, 4].
 double projection_power(double near, double ring, double rings);

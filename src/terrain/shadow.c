@@ -19,7 +19,8 @@ static const double SUN_STEP_RAD = 1.2e-3;
 static trl_result make_programs(struct terrain_shadow *s)
 {
     trl_result result = TRL_OK;
-    for (size_t i = 0; i <= s->surface->counts[SURFACE_ELEVATION] && result == TRL_OK; i++) {
+    for (size_t i = 0; i <= surface_count_seen(s->surface, SURFACE_ELEVATION) && result == TRL_OK;
+         i++) {
         struct surface_defines defines;
         surface_get_defines(s->surface, i, &defines);
         const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
@@ -65,7 +66,7 @@ trl_result terrain_shadow_init(const struct surface *surface, double sun_angular
 
 void terrain_shadow_finish(struct terrain_shadow *shadow)
 {
-    for (size_t i = 0; i <= SURFACE_MAX_LAYERS; i++) {
+    for (size_t i = 0; i <= SURFACE_SEEN_LAYERS; i++) {
         gpu_program_finish(&shadow->heights[i]);
     }
     gpu_program_finish(&shadow->spread);
@@ -91,10 +92,10 @@ static void set_map(const struct terrain_shadow *s, struct gpu_program *program)
 static trl_result draw_heights(struct terrain_shadow *s)
 {
     const struct anchor *anchor = &s->projection.anchor;
-    const size_t count =
-        surface_count_elevations(s->surface, anchor->up, s->projection.reach_rad + OUTSIDE_RAD);
-    struct gpu_program *program = &s->heights[count];
-    surface_bind(s->surface, anchor, program);
+    const struct surface_eye eye = projection_eye(&s->projection, s->surface, OUTSIDE_RAD);
+    const struct surface_selection selection = surface_select(s->surface, &eye);
+    struct gpu_program *program = &s->heights[selection.counts[SURFACE_ELEVATION]];
+    surface_bind(s->surface, &selection, anchor, program);
     set_map(s, program);
     s->current = 0;
     const struct gpu_pass pass = {.target = &s->targets[0]};

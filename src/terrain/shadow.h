@@ -17,7 +17,7 @@ struct terrain_shadow {
     struct projection projection;
     struct vec3 sun; // for which it was made
     double power, extent;
-    struct gpu_program heights[SURFACE_MAX_LAYERS + 1]; // by the elevation layers in reach
+    struct gpu_program heights[SURFACE_SEEN_LAYERS + 1]; // by the elevation layers in reach
     struct gpu_program spread;
     // R = altitude, m; G = distance to what casts it, m; B = altitude of the ground, m. The two are
     // drawn from one another.

@@ -18,11 +18,13 @@ enum surface_kind {
     SURFACE_COLOUR,
     SURFACE_WATER, // 1 is open water
     SURFACE_LIGHTS,
+    SURFACE_NORMAL, // laid over the slopes of the heights
     SURFACE_KIND_COUNT
 };
 
-// Of each kind, and together: a fragment shader surely has 16 samplers, and three are taken.
-enum { SURFACE_MAX_LAYERS = 4, SURFACE_MAX_ALL_LAYERS = 13 };
+// Of each kind that a surface holds, and that a program looks at: a fragment shader surely has 16
+// samplers, and three are taken. surface_select chooses.
+enum { SURFACE_MAX_LAYERS = 16, SURFACE_SEEN_LAYERS = 4 };
 
 struct surface_layer_desc {
     enum surface_kind kind;
@@ -30,7 +32,8 @@ struct surface_layer_desc {
     bool is_optional;   // a missing file is passed over
     double scale;       // elevation: metres per unit of the raster
     double offset_m;    // elevation
-    double feather_rad; // width of the blend at the layer's borders
+    double feather_rad; // width of the blend at the layer's borders and gaps
+    double mode;        // of shared/blend.glsl; normals: over or add only
 };
 
 struct surface_desc {
@@ -38,6 +41,8 @@ struct surface_desc {
     size_t layer_count;
     const struct surface_layer_desc *layers; // later ones lie over earlier ones of their kind
     float default_albedo[3];                 // linear sRGB, where no picture is
+    double exaggeration;                     // of all heights, > 0
+    bool is_strict;                          // a raster that is no good is an error, not left out
     struct detail_desc detail;               // all 0: none
     double max_bytes; // rasters that would need more are refused; see default
 };
@@ -64,9 +69,11 @@ struct surface {
     double min_altitude_m, max_altitude_m;
 };
 
-// Reads and uploads all rasters. Returns TRL_OK; TRL_ERROR_INVALID (too many layers, or a raster
-// beyond max_bytes or not fit); TRL_ERROR_IO; TRL_ERROR_MEMORY; TRL_ERROR_GPU. *out is zeroed on
-// failure.
+// Reads and uploads all rasters. One that is there but no good (too many, beyond max_bytes, not
+// fit, broken) is told in a line of the log and left out, or, where the surface is strict, an
+// error.
+// Returns TRL_OK; TRL_ERROR_IO (a file is missing that is not optional); TRL_ERROR_INVALID or
+// TRL_ERROR_IO (strict); TRL_ERROR_MEMORY; TRL_ERROR_GPU. *out is zeroed on failure.
 TRL_MUST_USE trl_result surface_init(struct gpu *gpu, const struct surface_desc *desc,
                                      struct surface *out);
 
@@ -91,24 +98,42 @@ double surface_max_altitude(const struct surface *surface);
 struct surface_bounds surface_bounds_around(const struct surface *surface, struct vec3 direction,
                                             double angle_rad);
 
-// How many elevation layers, from the first, a program must look at to see all that reach within
-// `angle_rad` of a unit direction.
-size_t surface_count_elevations(const struct surface *surface, struct vec3 direction,
-                                double angle_rad);
+size_t surface_count_layers(const struct surface *surface);
+
+// From where layers are looked at.
+struct surface_eye {
+    struct vec3 up;    // unit, to it from the planet's centre
+    double reach_rad;  // what is farther from there does not matter
+    double height_rad; // above the ground, over the radius
+    double least_rad;  // layers that look smaller are left out
+};
+
+// The layers of each kind that programs look at, in their order. Elevations: those in reach; of
+// these and of other kinds as many as a program holds, the smallest left out first.
+struct surface_selection {
+    size_t counts[SURFACE_KIND_COUNT];
+    uint8_t indices[SURFACE_KIND_COUNT][SURFACE_MAX_LAYERS];
+};
+struct surface_selection surface_select(const struct surface *surface,
+                                        const struct surface_eye *eye);
+
+// How many layers of a kind a program can be asked to look at.
+size_t surface_count_seen(const struct surface *surface, enum surface_kind kind);
 
 // "#define"s of the numbers of layers, for programs that include terrain/layers.glsl.
-enum { SURFACE_DEFINE_COUNT = 6, SURFACE_DEFINE_LENGTH = 48 };
+enum { SURFACE_DEFINE_COUNT = 8, SURFACE_DEFINE_LENGTH = 48 };
 struct surface_defines {
     char text[SURFACE_DEFINE_COUNT][SURFACE_DEFINE_LENGTH];
     const char *list[SURFACE_DEFINE_COUNT + 2]; // into text; two free for the caller
     size_t count;
 };
-// `elevations`: how many of the elevation layers the program looks at, from the first.
+// `elevations`: how many elevation layers the program looks at, up to surface_count_seen(). It is
+// to be drawn with selections of as many.
 void surface_get_defines(const struct surface *surface, size_t elevations,
                          struct surface_defines *out);
 
-// Hands a program the layers and where they lie as seen from an anchor.
-void surface_bind(const struct surface *surface, const struct anchor *anchor,
-                  struct gpu_program *program);
+// Hands a program the selected layers and where they lie as seen from an anchor.
+void surface_bind(const struct surface *surface, const struct surface_selection *selection,
+                  const struct anchor *anchor, struct gpu_program *program);
 
 #endif // TERRAIN_SURFACE_H

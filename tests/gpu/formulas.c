@@ -3,10 +3,12 @@
 // The GPU's float and C's double agree on the formulas that are one text for both.
 #include "fixture.h"
 
+#include "shared/blend.glsl"
 #include "shared/eclipse.glsl"
 #include "shared/penumbra.glsl"
 #include "shared/phase.glsl"
 #include "shared/profile.glsl"
+#include "shared/projection.glsl"
 #include "shared/projective.glsl"
 #include "shared/sky_map.glsl"
 
@@ -226,6 +228,64 @@ static void projective_rays_agree(void **state)
     gpu_program_finish(&program);
 }
 
+static void blends_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    gpu_program_set_float(&program, "u_wants_blend", 1);
+    const float values[] = {-2000, -0.5f, 0, 0.25f, 1, 8000};
+    for (int mode = 0; mode <= 4; mode++) {
+        for (size_t i = 0; i < 36; i++) {
+            const float pair[4] = {values[i % 6], values[i / 6], 0, 0};
+            const float how[4] = {(float)mode, 0.25f, 0, 0};
+            gpu_program_set_vec4(&program, "u_angle", pair);
+            gpu_program_set_vec4(&program, "u_shell", how);
+            const struct texel got = draw(f, &program);
+            const double below = (double)pair[0], value = (double)pair[1];
+            assert_agree(got.rgba[0], blend_layers(mode, below, value, 0.25));
+            assert_agree(got.rgba[1], blend_slope(mode, below, value, 3, 4));
+            assert_agree(got.rgba[2], blend_neutral(mode, below));
+            // What is neutral changes nothing, at any weight.
+            const double neutral = blend_neutral(mode, below);
+            assert_true(blend_layers(mode, below, neutral, 0.25) == below);
+        }
+    }
+    gpu_program_finish(&program);
+}
+
+// Offsets keep their digits however small they are: errors are counted in parts of the offset.
+static void projections_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    const float latitudes[] = {1.5707963f, 1.5f, 1, 0.3f, -0.2f};
+    const float offsets[] = {1e-9f, -3e-6f, 2e-3f, -0.2f};
+    for (size_t i = 0; i < 2 * 5 * 16; i++) {
+        const float pole = i % 2 ? -1 : 1;
+        const float place[4] = {pole * latitudes[i / 2 % 5], offsets[i / 10 % 4],
+                                -pole * fabsf(offsets[i / 40]), pole};
+        gpu_program_set_vec4(&program, "u_place", place);
+        const double sine = sin((double)place[0]), cosine = cos((double)place[0]);
+        const AxisOffset o =
+            projection_axis_offset(sine, cosine, (double)place[1], (double)place[2]);
+        const MapOffset m =
+            projection_stereographic(o, sine, cosine, (double)pole, 0.0066943799, 1);
+        const double size = fabs((double)place[1]) + fabs((double)place[2]);
+        gpu_program_set_float(&program, "u_wants_projection", 1);
+        struct texel got = draw(f, &program);
+        // Sine and cosine of the anchor are floats too: 6e-8, times a few operations.
+        assert_true(fabs((double)got.rgba[0] - o.outward) < 1e-6 * size);
+        assert_true(fabs((double)got.rgba[1] - o.east) < 1e-6 * size);
+        assert_true(fabs((double)got.rgba[2] - o.up) < 1e-6 * size);
+        gpu_program_set_float(&program, "u_wants_projection", 2);
+        got = draw(f, &program);
+        assert_true(fabs((double)got.rgba[0] - m.x) < 3e-6 * size);
+        assert_true(fabs((double)got.rgba[1] - m.y) < 3e-6 * size);
+        assert_agree(got.rgba[2], projection_stereographic_scale(sine, o.up, (double)pole));
+    }
+    gpu_program_finish(&program);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -236,6 +296,8 @@ int main(void)
         cmocka_unit_test(shadows_agree),
         cmocka_unit_test(eclipses_agree),
         cmocka_unit_test(projective_rays_agree),
+        cmocka_unit_test(blends_agree),
+        cmocka_unit_test(projections_agree),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }

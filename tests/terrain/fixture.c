@@ -173,6 +173,51 @@ void fixture_picture_finish(const struct fixture *f, struct picture *picture)
     mem_free(f->ctx, picture->pixels);
 }
 
+struct composed fixture_compose_middle(const struct fixture *f, const struct surface *s,
+                                       const struct camera *camera)
+{
+    struct mesher *mesher;
+    struct terrain_shadow shadow;
+    struct terrain_compose compose;
+    struct picture picture;
+    struct gpu_texture colors[3];
+    static const enum gpu_format FORMATS[3] = {GPU_FORMAT_RGBA8, GPU_FORMAT_RGBA32F,
+                                               GPU_FORMAT_RGBA8};
+    assert_int_equal(mesher_create(s, TRL_MESHER_HEMISPHERE, &mesher), TRL_OK);
+    assert_int_equal(terrain_shadow_init(s, 0.0047, &shadow), TRL_OK);
+    assert_int_equal(terrain_compose_init(s, &compose), TRL_OK);
+    fixture_picture_init(f, &picture);
+    struct gpu_target_desc target_desc = {.color_count = 3};
+    for (int i = 0; i < 3; i++) {
+        struct gpu_texture_desc desc = gpu_texture_desc_default();
+        desc.width = desc.height = PICTURE_SIDE;
+        desc.filter = GPU_FILTER_NEAREST;
+        desc.format = FORMATS[i];
+        assert_int_equal(gpu_texture_init(f->gpu, &desc, &colors[i]), TRL_OK);
+        target_desc.colors[i].texture = &colors[i];
+    }
+    struct gpu_target target;
+    assert_int_equal(gpu_target_init(f->gpu, &target_desc, &target), TRL_OK);
+    fixture_picture_draw(&picture, mesher, camera);
+    assert_int_equal(terrain_shadow_update(&shadow, camera), TRL_OK);
+    const struct terrain_compose_inputs inputs = {camera, &picture.position, &shadow, 0};
+    assert_int_equal(terrain_compose_draw(&compose, &inputs, &target), TRL_OK);
+    struct composed c;
+    const struct gpu_region middle = {0, PICTURE_SIDE / 2, PICTURE_SIDE / 2, 0, 1, 1, 1};
+    assert_int_equal(gpu_texture_read(&colors[0], &middle, c.albedo_water), TRL_OK);
+    assert_int_equal(gpu_texture_read(&colors[1], &middle, c.normal_sun), TRL_OK);
+    assert_int_equal(gpu_texture_read(&colors[2], &middle, c.lights), TRL_OK);
+    gpu_target_finish(&target);
+    for (int i = 0; i < 3; i++) {
+        gpu_texture_finish(&colors[i]);
+    }
+    fixture_picture_finish(f, &picture);
+    terrain_compose_finish(&compose);
+    terrain_shadow_finish(&shadow);
+    mesher_destroy(&mesher);
+    return c;
+}
+
 struct vec3 fixture_ray(const struct camera *camera, int x, int y)
 {
     return vec3_normalize(

@@ -69,6 +69,14 @@ void fixture_picture_draw(struct picture *picture, struct mesher *mesher,
                           const struct camera *camera);
 void fixture_picture_finish(const struct fixture *f, struct picture *picture);
 
+// Pixels of the three surface targets at the picture's middle.
+struct composed {
+    uint8_t albedo_water[4], lights[4];
+    float normal_sun[4];
+};
+struct composed fixture_compose_middle(const struct fixture *f, const struct surface *surface,
+                                       const struct camera *camera);
+
 // Unit direction of a pixel's middle.
 struct vec3 fixture_ray(const struct camera *camera, int x, int y);
 

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // The formulas that C and GLSL share, at the arguments of a test.
+#include "shared/blend.glsl"
 #include "shared/eclipse.glsl"
 #include "shared/penumbra.glsl"
 #include "shared/phase.glsl"
 #include "shared/profile.glsl"
+#include "shared/projection.glsl"
 #include "shared/sky_map.glsl"
 
 uniform vec4 u_angle; // cosine, g
@@ -15,6 +17,9 @@ uniform float u_wants_map;
 uniform float u_wants_outside;
 uniform float u_wants_shadow;
 uniform float u_wants_eclipse;
+uniform float u_wants_blend;
+uniform float u_wants_projection; // 1 the offset, 2 the map
+uniform vec4 u_place;             // latitude of the anchor; offsets in longitude and latitude; pole
 layout(location = 0) out vec4 o_color;
 
 void main()
@@ -34,9 +39,23 @@ void main()
                         sky_map_depth_outside(u_map.x, 1000.0, u_map.y), suns.middle, suns.reach);
     vec4 eclipses = vec4(eclipse_visible(u_angle.x, u_angle.y), eclipse_corona(u_angle.x),
                          eclipse_shadow(u_shell.x, u_shell.y, 1737400.0, 0.0046529), 0.0);
-    o_color = u_wants_eclipse > 0.5   ? eclipses
-              : u_wants_outside > 0.5 ? outside
-              : u_wants_shadow > 0.5  ? shadows
-              : u_wants_map > 0.5     ? maps
-                                      : (u_wants_profile > 0.5 ? profiles : phases);
+    vec4 blends = vec4(blend_layers(u_shell.x, u_angle.x, u_angle.y, u_shell.y),
+                       blend_slope(u_shell.x, u_angle.x, u_angle.y, 3.0, 4.0),
+                       blend_neutral(u_shell.x, u_angle.x), 0.0);
+    float anchor_sine = sin(u_place.x);
+    float anchor_cosine = cos(u_place.x);
+    AxisOffset offset = projection_axis_offset(anchor_sine, anchor_cosine, u_place.y, u_place.z);
+    MapOffset map =
+        projection_stereographic(offset, anchor_sine, anchor_cosine, u_place.w, 0.0066943799, 1.0);
+    vec4 projections =
+        vec4(map.x, map.y, projection_stereographic_scale(anchor_sine, offset.up, u_place.w), 0.0);
+    projections =
+        u_wants_projection < 1.5 ? vec4(offset.outward, offset.east, offset.up, 0.0) : projections;
+    o_color = u_wants_projection > 0.5 ? projections
+              : u_wants_blend > 0.5    ? blends
+              : u_wants_eclipse > 0.5  ? eclipses
+              : u_wants_outside > 0.5  ? outside
+              : u_wants_shadow > 0.5   ? shadows
+              : u_wants_map > 0.5      ? maps
+                                       : (u_wants_profile > 0.5 ? profiles : phases);
 }

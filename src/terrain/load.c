@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Reading a surface's rasters. A raster that is broken is told in one line and left out: the planet
+// draws without it.
+#include "terrain/surface.h"
+
+#include "shared/blend.glsl"
+#include "terrain/bounds.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char *const KIND_NAMES[SURFACE_KIND_COUNT] = {"elevation", "colour", "water", "lights",
+                                                           "normal"};
+// Bytes a texel on both sides, mips included: heights are held as floats on the GPU and as read on
+// the CPU.
+static const double KIND_TEXEL_BYTES[SURFACE_KIND_COUNT] = {4 * 4.0 / 3 + 4, 4 * 4.0 / 3, 4.0 / 3,
+                                                            4 * 4.0 / 3, 4 * 4.0 / 3};
+
+struct surface_desc surface_desc_default(void)
+{
+    return (struct surface_desc){
+        .radius_m = 1, .default_albedo = {0.3f, 0.3f, 0.3f}, .exaggeration = 1, .max_bytes = 3e9};
+}
+
+// What is needed while loading only.
+struct loader {
+    const struct surface_desc *desc;
+    struct surface *surface;
+    uint8_t *masks[SURFACE_MAX_LAYERS]; // owned; bytes of the water layers
+    double bytes;
+};
+
+// What a gap of the layer that is being read must hold to show what is below.
+struct below {
+    const struct surface *surface;
+    double mode;
+};
+
+static double fill_height(const void *user, double latitude, double longitude)
+{
+    const struct below *below = user;
+    const double altitude =
+        surface_altitude(below->surface, vec3_from_lat_lon(latitude, longitude));
+    return blend_neutral(below->mode, altitude);
+}
+
+// What the last mask that covers a place says, along a row of a layer; 0 where none does.
+static void read_mask_row(const struct loader *loader, const struct layer_frame *f, uint32_t y,
+                          uint8_t *row)
+{
+    const struct surface *s = loader->surface;
+    for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
+        const struct layer_frame *m = &s->layers[SURFACE_WATER][i].frame;
+        const struct layer_geo west = layer_geo_of(f, 0, y);
+        const struct layer_place first = layer_locate(m, west.latitude, west.longitude);
+        const uint8_t *texels =
+            loader->masks[i] + layer_texel_index(m, 0, (int64_t)floor(first.y + 0.5));
+        // Both equirectangular: a row of places is a row of the mask.
+        const bool is_row = f->pole == 0 && m->pole == 0 && m->is_whole_circle && first.weight > 0;
+        if (is_row && m->width == f->width && fabs(first.x) < 0.5) {
+            memcpy(row, texels, m->width);
+            continue;
+        }
+        const double step = f->texel_width / m->texel_width;
+        for (uint32_t x = 0; x < f->width && is_row; x++) {
+            const uint32_t column = (uint32_t)(first.x + 0.5 + x * step);
+            row[x] = texels[column < m->width ? column : column - m->width];
+        }
+        for (uint32_t x = 0; x < f->width && !is_row; x++) {
+            const struct layer_geo at = layer_geo_of(f, x, y);
+            const struct layer_place p = layer_locate(m, at.latitude, at.longitude);
+            row[x] = p.weight > 0 ? loader->masks[i][layer_texel_index(m, lrint(p.x), lrint(p.y))]
+                                  : row[x];
+        }
+    }
+}
+
+static void raise_row(const struct layer_frame *f, const struct layer_heights *h, uint32_t y,
+                      const uint8_t *mask)
+{
+    const int16_t zero_short = (int16_t)fmax(INT16_MIN, fmin(INT16_MAX, -h->offset_m / h->scale));
+    const float zero_float = (float)(-h->offset_m / h->scale);
+    const size_t base = (size_t)y * f->width;
+    for (uint32_t x = 0; x < f->width && h->shorts; x++) {
+        const int16_t v = h->shorts[base + x];
+        h->shorts[base + x] = v < zero_short && mask[x] > 127 ? zero_short : v;
+    }
+    for (uint32_t x = 0; x < f->width && h->floats; x++) {
+        const float v = h->floats[base + x];
+        h->floats[base + x] = v < zero_float && mask[x] > 127 ? zero_float : v;
+    }
+}
+
+// Open water draws at sea level; what lies below it is the ocean's to show. Dry land below sea
+// level stays.
+static trl_result raise_sea(const struct loader *loader, struct terrain_layer *layer)
+{
+    // Layers that add or multiply hold differences and factors, not heights.
+    if (loader->surface->counts[SURFACE_WATER] == 0 || layer->mode == BLEND_ADD ||
+        layer->mode == BLEND_MULTIPLY) {
+        return TRL_OK;
+    }
+    bool is_out_of_memory = false;
+#pragma omp parallel
+    {
+        uint8_t *mask = mem_alloc(layer->ctx, layer->frame.width, 1);
+        if (!mask) {
+#pragma omp atomic write
+            is_out_of_memory = true;
+        }
+#pragma omp for schedule(dynamic, 64)
+        for (uint32_t y = 0; y < layer->frame.height; y++) {
+            if (mask) {
+                read_mask_row(loader, &layer->frame, y, mask);
+                raise_row(&layer->frame, &layer->heights, y, mask);
+            }
+        }
+        mem_free(layer->ctx, mask);
+    }
+    return is_out_of_memory ? TRL_ERROR_MEMORY : TRL_OK;
+}
+
+static trl_result check_bytes(struct loader *loader, const struct raster *raster,
+                              const struct surface_layer_desc *desc)
+{
+    const struct gpu *gpu = loader->surface->gpu;
+    const struct raster_window w =
+        raster_window_whole(raster, gpu ? gpu->caps.max_texture_size : 0);
+    const double bytes = (double)w.out_width * w.out_height * KIND_TEXEL_BYTES[desc->kind];
+    loader->bytes += bytes;
+    if (loader->bytes > loader->desc->max_bytes) {
+        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: %u x %u texels need %.0f MB; with the other rasters that is more than "
+                        "the %.0f MB allowed",
+                        desc->path, w.out_width, w.out_height, bytes / 1e6,
+                        loader->desc->max_bytes / 1e6);
+    }
+    if (w.out_width != raster->width) {
+        trl_log(raster->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER,
+                "%s: %u x %u is reduced to %u x %u, the GPU's largest texture", desc->path,
+                raster->width, raster->height, w.out_width, w.out_height);
+    }
+    return TRL_OK;
+}
+
+static trl_result load_elevation(struct loader *loader, const struct surface_layer_desc *desc,
+                                 const struct raster *raster, struct terrain_layer *layer)
+{
+    const struct below under = {loader->surface, layer->mode};
+    const struct layer_fill below = {fill_height, &under};
+    // Exaggerating every layer exaggerates their sum; factors are no heights.
+    const double exaggeration = layer->mode == BLEND_MULTIPLY ? 1 : loader->desc->exaggeration;
+    layer->heights.scale = desc->scale * exaggeration;
+    layer->heights.offset_m = desc->offset_m * exaggeration;
+    trl_result result = desc->scale != 0 && isfinite(desc->scale) && isfinite(desc->offset_m)
+                            ? TRL_OK
+                            : trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                                       "%s: a scale of %g and an offset of %g give no heights",
+                                       desc->path, desc->scale, desc->offset_m);
+    if (result == TRL_OK) {
+        result = layer_read_heights(raster, &below, layer);
+    }
+    if (result == TRL_OK) {
+        result = raise_sea(loader, layer);
+    }
+    if (result == TRL_OK) {
+        result = layer_upload_heights(loader->surface->gpu, layer);
+    }
+    return result;
+}
+
+static trl_result check_count(const struct loader *loader, const struct surface_layer_desc *desc)
+{
+    if (loader->surface->counts[desc->kind] < SURFACE_MAX_LAYERS) {
+        return TRL_OK;
+    }
+    return trl_fail(loader->surface->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                    "%s: %d %s layers are all that can be held", desc->path, SURFACE_MAX_LAYERS,
+                    KIND_NAMES[desc->kind]);
+}
+
+// Lines and points have no inside that a layer could show.
+static trl_result check_size(const struct raster *raster)
+{
+    return raster->width >= 2 && raster->height >= 2
+               ? TRL_OK
+               : trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                          "%s: %u x %u pixels; a layer needs at least 2 x 2", raster->path,
+                          raster->width, raster->height);
+}
+
+static trl_result read_layer(struct loader *loader, const struct surface_layer_desc *desc,
+                             const struct raster *raster, struct terrain_layer *layer)
+{
+    struct surface *s = loader->surface;
+    switch (desc->kind) {
+    case SURFACE_ELEVATION:
+        return load_elevation(loader, desc, raster, layer);
+    case SURFACE_WATER:
+        return layer_load_mask(s->gpu, raster, layer, &loader->masks[s->counts[SURFACE_WATER]]);
+    case SURFACE_NORMAL:
+        return layer_load_normals(s->gpu, raster, layer);
+    default:
+        return layer_load_picture(s->gpu, raster, layer);
+    }
+}
+
+static trl_result load_layer(struct loader *loader, const struct surface_layer_desc *desc)
+{
+    struct surface *s = loader->surface;
+    struct raster raster = {0};
+    trl_result result = check_count(loader, desc);
+    if (result == TRL_OK) {
+        result = raster_open(s->ctx, desc->path, &raster);
+    }
+    if (result != TRL_OK) {
+        return result;
+    }
+    struct terrain_layer *layer = &s->layers[desc->kind][s->counts[desc->kind]];
+    *layer = (struct terrain_layer){.ctx = s->ctx,
+                                    .mode = desc->mode,
+                                    .frame = layer_frame_for(&raster, s->gpu, desc->feather_rad)};
+    result = check_size(&raster);
+    if (result == TRL_OK) {
+        result = check_bytes(loader, &raster, desc);
+    }
+    if (result == TRL_OK) {
+        result = read_layer(loader, desc, &raster, layer);
+    }
+    raster_finish(&raster);
+    // Counted only now: heights of layers below fill the gaps of this one.
+    s->counts[desc->kind] += result == TRL_OK;
+    if (result != TRL_OK) {
+        layer_finish(layer);
+    }
+    return result;
+}
+
+// A file that is there and no good is told of by now. Where one is missing that must be there,
+// somebody forgot to fetch it: that is no planet to draw.
+static bool can_go_without(const struct loader *loader, const struct surface_layer_desc *desc,
+                           trl_result result)
+{
+    const bool is_bad = result == TRL_ERROR_INVALID || result == TRL_ERROR_IO;
+    return is_bad && !loader->desc->is_strict && access(desc->path, R_OK) == 0;
+}
+
+// Water before the rest: heights are raised to sea level by it.
+static trl_result load_layers(struct loader *loader)
+{
+    static const enum surface_kind ORDER[SURFACE_KIND_COUNT] = {
+        SURFACE_WATER, SURFACE_ELEVATION, SURFACE_COLOUR, SURFACE_LIGHTS, SURFACE_NORMAL};
+    for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
+        for (size_t i = 0; i < loader->desc->layer_count; i++) {
+            const struct surface_layer_desc *desc = &loader->desc->layers[i];
+            if (desc->kind != ORDER[k] || (desc->is_optional && access(desc->path, F_OK) != 0)) {
+                continue;
+            }
+            const trl_result result = load_layer(loader, desc);
+            if (result != TRL_OK && !can_go_without(loader, desc, result)) {
+                return result;
+            }
+        }
+    }
+    return TRL_OK;
+}
+
+// In north-south direction, on the sphere; of everything that has layers at all.
+static double find_coarsest_m(const struct surface *s)
+{
+    double coarsest = 0;
+    for (size_t i = 0; i < s->counts[SURFACE_ELEVATION]; i++) {
+        coarsest = fmax(coarsest, s->layers[SURFACE_ELEVATION][i].frame.texel_height);
+    }
+    return coarsest * s->radius_m;
+}
+
+static trl_result fill_surface(const struct surface_desc *desc, struct surface *out)
+{
+    out->radius_m = desc->radius_m;
+    for (int c = 0; c < 3; c++) {
+        out->default_albedo[c] = desc->default_albedo[c];
+    }
+    struct loader loader = {.desc = desc, .surface = out};
+    trl_result result = load_layers(&loader);
+    if (result == TRL_OK) {
+        result = surface_find_bounds(out);
+    }
+    if (result == TRL_OK && out->gpu) {
+        result = detail_init(out->gpu, &desc->detail, find_coarsest_m(out), &out->detail);
+    }
+    for (size_t i = 0; i < SURFACE_MAX_LAYERS; i++) {
+        mem_free(out->ctx, loader.masks[i]);
+    }
+    if (result != TRL_OK) {
+        surface_finish(out);
+    }
+    return result;
+}
+
+trl_result surface_init(struct gpu *gpu, const struct surface_desc *desc, struct surface *out)
+{
+    *out = (struct surface){.ctx = gpu->ctx, .gpu = gpu};
+    return fill_surface(desc, out);
+}
+
+trl_result surface_init_on_cpu(const trl_context *ctx, const struct surface_desc *desc,
+                               struct surface *out)
+{
+    *out = (struct surface){.ctx = ctx};
+    return fill_surface(desc, out);
+}
+
+void surface_finish(struct surface *surface)
+{
+    for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
+        for (size_t i = 0; i < surface->counts[k]; i++) {
+            layer_finish(&surface->layers[k][i]);
+        }
+    }
+    detail_finish(&surface->detail);
+    if (surface->ctx) {
+        mem_free(surface->ctx, surface->bounds);
+    }
+    *surface = (struct surface){0};
+}

@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "terrain/voids.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MAX_LEVELS = 24, SWEEPS = 12 };
+static const float FAR_TEXELS = 1e9f;
+
+// A plane of numbers of which some are known, with its mip chain: means of what is known.
+struct plane {
+    const trl_context *ctx;
+    int levels;
+    uint32_t width[MAX_LEVELS], height[MAX_LEVELS];
+    float *values[MAX_LEVELS];  // owned
+    float *weights[MAX_LEVELS]; // owned; 0 unknown
+};
+
+static void plane_finish(struct plane *p)
+{
+    for (int i = 0; i < p->levels; i++) {
+        mem_free(p->ctx, p->values[i]);
+        mem_free(p->ctx, p->weights[i]);
+    }
+}
+
+static trl_result plane_init(const trl_context *ctx, uint32_t width, uint32_t height,
+                             struct plane *out)
+{
+    *out = (struct plane){.ctx = ctx};
+    for (bool is_last = false; !is_last && out->levels < MAX_LEVELS; out->levels++) {
+        const int i = out->levels;
+        out->width[i] = width;
+        out->height[i] = height;
+        out->values[i] = mem_alloc(ctx, (size_t)width * height, sizeof(float));
+        out->weights[i] = mem_alloc(ctx, (size_t)width * height, sizeof(float));
+        if (!out->values[i] || !out->weights[i]) {
+            out->levels++;
+            plane_finish(out);
+            return TRL_ERROR_MEMORY;
+        }
+        is_last = width == 1 && height == 1;
+        width = (width + 1) / 2;
+        height = (height + 1) / 2;
+    }
+    return TRL_OK;
+}
+
+static void pull(struct plane *p, int level)
+{
+    const uint32_t width = p->width[level - 1], height = p->height[level - 1];
+    for (uint32_t y = 0; y < height; y++) {
+        for (uint32_t x = 0; x < width; x++) {
+            const size_t from = (size_t)y * width + x;
+            const size_t to = (size_t)(y / 2) * p->width[level] + x / 2;
+            p->values[level][to] += p->weights[level - 1][from] * p->values[level - 1][from];
+            p->weights[level][to] += p->weights[level - 1][from];
+        }
+    }
+    const size_t count = (size_t)p->width[level] * p->height[level];
+    for (size_t i = 0; i < count; i++) {
+        if (p->weights[level][i] > 0) {
+            p->values[level][i] /= p->weights[level][i];
+            p->weights[level][i] = fminf(p->weights[level][i], 1);
+        }
+    }
+}
+
+// Linear between the centres of a coarser level's cells.
+static float interpolate(const struct plane *p, int level, float x, float y)
+{
+    const float column = fmaxf(0, fminf(x, (float)p->width[level] - 1));
+    const float row = fmaxf(0, fminf(y, (float)p->height[level] - 1));
+    const uint32_t x0 = (uint32_t)column, y0 = (uint32_t)row;
+    const uint32_t x1 = x0 + 1 < p->width[level] ? x0 + 1 : x0;
+    const uint32_t y1 = y0 + 1 < p->height[level] ? y0 + 1 : y0;
+    const float *upper = p->values[level] + (size_t)y0 * p->width[level];
+    const float *lower = p->values[level] + (size_t)y1 * p->width[level];
+    const float fx = column - (float)x0, fy = row - (float)y0;
+    const float a = upper[x0] + fx * (upper[x1] - upper[x0]);
+    const float b = lower[x0] + fx * (lower[x1] - lower[x0]);
+    return a + fy * (b - a);
+}
+
+// Toward the mean of the four neighbours where nothing is known.
+static void relax(struct plane *p, int level)
+{
+    const int64_t width = p->width[level], height = p->height[level];
+    float *v = p->values[level];
+    for (int64_t y = 0; y < height; y++) {
+        for (int64_t x = 0; x < width; x++) {
+            const int64_t i = y * width + x;
+            if (!(p->weights[level][i] > 0)) {
+                const float left = v[x > 0 ? i - 1 : i], right = v[x + 1 < width ? i + 1 : i];
+                const float up = v[y > 0 ? i - width : i], down = v[y + 1 < height ? i + width : i];
+                v[i] = 0.25f * (left + right + up + down);
+            }
+        }
+    }
+}
+
+// Fills what is unknown as evenly as what is known allows (nearly the solution of Laplace's
+// equation: coarse levels give the shape, sweeps on each smooth it).
+static void spread(struct plane *p)
+{
+    for (int level = 1; level < p->levels; level++) {
+        pull(p, level);
+    }
+    for (int level = p->levels - 2; level >= 0; level--) {
+        for (uint32_t y = 0; y < p->height[level]; y++) {
+            for (uint32_t x = 0; x < p->width[level]; x++) {
+                const size_t i = (size_t)y * p->width[level] + x;
+                if (!(p->weights[level][i] > 0)) {
+                    p->values[level][i] =
+                        interpolate(p, level + 1, 0.5f * (float)x - 0.25f, 0.5f * (float)y - 0.25f);
+                }
+            }
+        }
+        for (int i = 0; i < SWEEPS; i++) {
+            relax(p, level);
+        }
+    }
+}
+
+// Chamfer distances in texels to the nearest that is 0, from the north-west and back.
+static void measure_distances(uint32_t width, uint32_t height, float *distance)
+{
+    const int64_t count = (int64_t)width * height;
+    for (int pass = 0; pass < 2; pass++) {
+        const int64_t step = pass == 0 ? -1 : 1;
+        for (int64_t k = 0; k < count; k++) {
+            const int64_t i = pass == 0 ? k : count - 1 - k;
+            const int64_t x = i % width, y = i / width;
+            const bool has_side = x + step >= 0 && x + step < (int64_t)width;
+            const bool has_row = y + step >= 0 && y + step < (int64_t)height;
+            float d = distance[i];
+            d = has_side ? fminf(d, distance[i + step] + 1) : d;
+            for (int64_t dx = -1; dx <= 1 && has_row; dx++) {
+                if (x + dx >= 0 && x + dx < (int64_t)width) {
+                    const float far = dx == 0 ? 1 : 1.4142f;
+                    d = fminf(d, distance[i + step * (int64_t)width + dx] + far);
+                }
+            }
+            distance[i] = d;
+        }
+    }
+}
+
+static double smooth_part(double x)
+{
+    const double t = fmax(0, fmin(1, x));
+    return t * t * (3 - 2 * t);
+}
+
+static bool is_void(const struct layer_heights *h, double nodata, size_t i)
+{
+    return h->floats ? !isfinite(h->floats[i]) : (double)h->shorts[i] == nodata;
+}
+
+static bool has_void_beside(const uint8_t *voids, const struct layer_frame *f, size_t i)
+{
+    const size_t x = i % f->width, y = i / f->width;
+    return (x > 0 && voids[i - 1]) || (x + 1 < f->width && voids[i + 1]) ||
+           (y > 0 && voids[i - f->width]) || (y + 1 < f->height && voids[i + f->width]);
+}
+
+static double height_below(const struct layer_fill *below, const struct layer_frame *f, size_t i)
+{
+    const struct layer_geo g = layer_geo_of(f, (double)(i % f->width), (double)(i / f->width));
+    return below->height(below->user, g.latitude, g.longitude);
+}
+
+struct gaps {
+    uint8_t *voids;  // owned
+    float *distance; // owned; to the rim, texels
+    struct plane difference;
+};
+
+// The rim's differences to what is below are what is known.
+static void measure_rim(const struct layer_fill *below, const struct terrain_layer *layer,
+                        struct gaps *gaps)
+{
+    const struct layer_frame *f = &layer->frame;
+    const int64_t count = (int64_t)f->width * f->height;
+#pragma omp parallel for schedule(dynamic, 4096)
+    for (int64_t i = 0; i < count; i++) {
+        gaps->distance[i] = gaps->voids[i] ? FAR_TEXELS : 0;
+        if (!gaps->voids[i] && has_void_beside(gaps->voids, f, (size_t)i)) {
+            const double height = layer_texel(layer, i % f->width, i / f->width);
+            gaps->difference.values[0][i] = (float)(height - height_below(below, f, (size_t)i));
+            gaps->difference.weights[0][i] = 1;
+        }
+    }
+}
+
+static trl_result fill_gaps(const struct layer_fill *below, struct gaps *gaps,
+                            struct terrain_layer *layer)
+{
+    const struct layer_frame *f = &layer->frame;
+    const int64_t count = (int64_t)f->width * f->height;
+    gaps->distance = mem_alloc(layer->ctx, (size_t)count, sizeof(float));
+    const trl_result result = gaps->distance
+                                  ? plane_init(layer->ctx, f->width, f->height, &gaps->difference)
+                                  : TRL_ERROR_MEMORY;
+    if (result != TRL_OK) {
+        return result;
+    }
+    measure_rim(below, layer, gaps);
+    spread(&gaps->difference);
+    measure_distances(f->width, f->height, gaps->distance);
+    const double feather = fmax(f->feather / f->texel_height, 1);
+#pragma omp parallel for schedule(dynamic, 4096)
+    for (int64_t i = 0; i < count; i++) {
+        if (gaps->voids[i]) {
+            const double left = 1 - smooth_part((double)gaps->distance[i] / feather);
+            const double height =
+                height_below(below, f, (size_t)i) + left * (double)gaps->difference.values[0][i];
+            layer_set_texel(&layer->heights, (size_t)i, height);
+        }
+    }
+    plane_finish(&gaps->difference);
+    return TRL_OK;
+}
+
+static trl_result fail_all_void(const struct raster *raster)
+{
+    return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                    "%s: no pixel of it has data", raster->path);
+}
+
+trl_result voids_fill_heights(const struct raster *raster, const struct layer_fill *below,
+                              struct terrain_layer *layer)
+{
+    const struct layer_heights *h = &layer->heights;
+    const size_t count = (size_t)layer->frame.width * layer->frame.height;
+    if (h->shorts && !raster->has_nodata) {
+        return TRL_OK;
+    }
+    struct gaps gaps = {.voids = mem_alloc(layer->ctx, count, 1)};
+    if (!gaps.voids) {
+        return TRL_ERROR_MEMORY;
+    }
+    size_t voids = 0;
+#pragma omp parallel for reduction(+ : voids)
+    for (size_t i = 0; i < count; i++) {
+        gaps.voids[i] = is_void(h, raster->nodata, i);
+        voids += gaps.voids[i];
+    }
+    trl_result result = voids == count ? fail_all_void(raster) : TRL_OK;
+    if (result == TRL_OK && voids > 0) {
+        result = fill_gaps(below, &gaps, layer);
+    }
+    mem_free(layer->ctx, gaps.voids);
+    mem_free(layer->ctx, gaps.distance);
+    return result;
+}
+
+// Colours of the pixels that have one, spread over those that have none.
+static trl_result spread_channel(const trl_context *ctx, const struct layer_frame *f, int channel,
+                                 uint8_t *rgba)
+{
+    struct plane plane;
+    const trl_result result = plane_init(ctx, f->width, f->height, &plane);
+    if (result != TRL_OK) {
+        return result;
+    }
+    const size_t count = (size_t)f->width * f->height;
+    for (size_t i = 0; i < count; i++) {
+        plane.values[0][i] = rgba[4 * i + (size_t)channel];
+        plane.weights[0][i] = rgba[4 * i + 3] > 0 ? 1 : 0;
+    }
+    spread(&plane);
+    for (size_t i = 0; i < count; i++) {
+        rgba[4 * i + (size_t)channel] = (uint8_t)lrintf(plane.values[0][i]);
+    }
+    plane_finish(&plane);
+    return TRL_OK;
+}
+
+static trl_result feather_alpha(const trl_context *ctx, const struct layer_frame *f, uint8_t *rgba)
+{
+    const size_t count = (size_t)f->width * f->height;
+    float *distance = mem_alloc(ctx, count, sizeof *distance);
+    if (!distance) {
+        return TRL_ERROR_MEMORY;
+    }
+    for (size_t i = 0; i < count; i++) {
+        distance[i] = rgba[4 * i + 3] > 0 ? FAR_TEXELS : 0;
+    }
+    measure_distances(f->width, f->height, distance);
+    const double feather = fmax(f->feather / f->texel_height, 1);
+    for (size_t i = 0; i < count; i++) {
+        const double weight = smooth_part(((double)distance[i] - 0.5) / feather);
+        rgba[4 * i + 3] = (uint8_t)lrint(weight * rgba[4 * i + 3]);
+    }
+    mem_free(ctx, distance);
+    return TRL_OK;
+}
+
+trl_result voids_fill_picture(const struct raster *raster, const struct layer_frame *f,
+                              uint8_t *rgba)
+{
+    const size_t count = (size_t)f->width * f->height;
+    size_t voids = 0;
+#pragma omp parallel for reduction(+ : voids)
+    for (size_t i = 0; i < count; i++) {
+        voids += rgba[4 * i + 3] == 0;
+    }
+    trl_result result = voids == count ? fail_all_void(raster) : TRL_OK;
+    for (int channel = 0; channel < 3 && voids > 0 && result == TRL_OK; channel++) {
+        result = spread_channel(raster->ctx, f, channel, rgba);
+    }
+    if (result == TRL_OK && voids > 0 && !raster->has_alpha) {
+        result = feather_alpha(raster->ctx, f, rgba);
+    }
+    return result;
+}
