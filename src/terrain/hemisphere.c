@@ -12,6 +12,7 @@
 #include "gpu/pass.h"
 #include "shared/hemisphere.glsl"
 #include "terrain/depth.h"
+#include "terrain/height_programs.h"
 #include "terrain/projection.h"
 
 #include <math.h>
@@ -50,7 +51,7 @@ struct hemisphere {
     struct chunk chunks[CHUNKS];
     struct gpu_texture positions;
     struct gpu_target target;
-    struct gpu_program grid_programs[SURFACE_SEEN_LAYERS + 1]; // by the layers in reach
+    struct height_programs grid_programs;
     struct gpu_program mesh_program;
     struct gpu_mesh meshes[MESHES]; // of every vertex, every second, every fourth
 };
@@ -106,19 +107,10 @@ static trl_result make_mesh(struct hemisphere *h, uint32_t step, struct gpu_mesh
 
 static trl_result make_programs(struct hemisphere *h)
 {
-    trl_result result = TRL_OK;
-    const size_t most = surface_count_seen(h->surface, SURFACE_ELEVATION);
-    for (size_t i = 0; i <= most && result == TRL_OK; i++) {
-        struct surface_defines defines;
-        surface_get_defines(h->surface, i, &defines);
-        const struct gpu_program_desc grid = {.vertex = "lib/fullscreen.vert",
-                                              .fragment = "terrain/grid.frag",
-                                              .defines = defines.list,
-                                              .define_count = defines.count};
-        result = gpu_program_init(h->gpu, &grid, &h->grid_programs[i]);
-    }
     const struct gpu_program_desc mesh = {.vertex = "terrain/mesh.vert",
                                           .fragment = "terrain/mesh.frag"};
+    const trl_result result =
+        height_programs_init(h->surface, "terrain/grid.frag", &h->grid_programs);
     return result == TRL_OK ? gpu_program_init(h->gpu, &mesh, &h->mesh_program) : result;
 }
 
@@ -186,9 +178,8 @@ static trl_result draw_grid(struct hemisphere *h)
     float planet_from_local[9];
     anchor_planet_from_local(&h->projection.anchor, planet_from_local);
     const struct surface_eye eye = projection_eye(&h->projection, h->surface, 0);
-    const struct surface_selection seen = surface_select(h->surface, &eye);
-    struct gpu_program *program = &h->grid_programs[seen.counts[SURFACE_ELEVATION]];
-    surface_bind(h->surface, &seen, &h->projection.anchor, program);
+    struct gpu_program *program =
+        height_programs_bind(&h->grid_programs, &eye, &h->projection.anchor);
     gpu_program_set_vec4(program, "u_grid", grid);
     gpu_program_set_mat3(program, "u_planet_from_local", planet_from_local);
     const struct gpu_pass pass = {.target = &h->target};
@@ -317,9 +308,7 @@ static void destroy(struct mesher *base)
     for (int i = 0; i < MESHES; i++) {
         gpu_mesh_finish(&h->meshes[i]);
     }
-    for (int i = 0; i <= SURFACE_SEEN_LAYERS; i++) {
-        gpu_program_finish(&h->grid_programs[i]);
-    }
+    height_programs_finish(&h->grid_programs);
     gpu_program_finish(&h->mesh_program);
     gpu_target_finish(&h->target);
     gpu_texture_finish(&h->positions);

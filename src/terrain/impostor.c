@@ -13,18 +13,12 @@ static const double MOST_PIXELS_OF_RELIEF = 0.25;
 trl_result impostor_init(const struct surface *surface, struct impostor *out)
 {
     *out = (struct impostor){.surface = surface};
-    struct surface_defines defines;
-    surface_get_defines(surface, surface->counts[SURFACE_ELEVATION], &defines);
-    const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
-                                          .fragment = "terrain/impostor.frag",
-                                          .defines = defines.list,
-                                          .define_count = defines.count};
-    return gpu_program_init(surface->gpu, &desc, &out->program);
+    return height_programs_init(surface, "terrain/impostor.frag", &out->programs);
 }
 
 void impostor_finish(struct impostor *impostor)
 {
-    gpu_program_finish(&impostor->program);
+    height_programs_finish(&impostor->programs);
     *impostor = (struct impostor){0};
 }
 
@@ -75,11 +69,11 @@ static struct gpu_rect find_rect(const struct impostor_view *view, const struct 
     return rect;
 }
 
-static void bind_view(struct impostor *impostor, const struct impostor_view *view, double pixel_rad)
+static void bind_view(const struct impostor *impostor, const struct impostor_view *view,
+                      double pixel_rad, struct gpu_program *program)
 {
     const struct surface *surface = impostor->surface;
     const struct sampling_camera *s = view->sampling;
-    struct gpu_program *program = &impostor->program;
     const struct vec3 columns[3] = {vec3_scale(s->right, s->tan_half_fov_x),
                                     vec3_scale(s->up, s->tan_half_fov_y), s->forward};
     float local_from_view[9];
@@ -94,7 +88,6 @@ static void bind_view(struct impostor *impostor, const struct impostor_view *vie
     const float distance[3] = {
         (float)altitude_m, (float)surface->radius_m,
         (float)(0.5 * (surface_min_altitude(surface) + surface_max_altitude(surface)))};
-    surface_bind(surface, &s->anchor, program);
     gpu_program_set_vec3(program, "u_distance", distance);
     gpu_program_set_float(program, "u_log2_footprint", (float)log2(altitude_m * pixel_rad));
     gpu_program_set_mat3(program, "u_local_from_view", local_from_view);
@@ -106,11 +99,16 @@ trl_result impostor_draw(struct impostor *impostor, const struct impostor_view *
 {
     const struct depth_ranges ranges = depth_ranges_make(impostor->surface, view->camera);
     depth_range_begin(&ranges, 0, target, GPU_CULL_NONE); // the far one, if there are two
-    depth_range_bind(&ranges.of[0], &impostor->program);
-    bind_view(impostor, view, 2 * view->camera->tan_half_fov_y / target->height);
+    const double pixel_rad = 2 * view->camera->tan_half_fov_y / target->height;
+    struct surface_eye layers = sampling_camera_eye(view->sampling, impostor->surface);
+    layers.least_rad = pixel_rad;
+    struct gpu_program *program =
+        height_programs_bind(&impostor->programs, &layers, &view->sampling->anchor);
+    depth_range_bind(&ranges.of[0], program);
+    bind_view(impostor, view, pixel_rad, program);
     const struct gpu_pass pass = {.target = target,
                                   .scissor = find_rect(view, target),
                                   .state = {.depth = GPU_DEPTH_NEARER, .writes_depth = true}};
     gpu_pass_begin(impostor->surface->gpu, &pass);
-    return gpu_draw_fullscreen(&impostor->program, "impostor");
+    return gpu_draw_fullscreen(program, "impostor");
 }

@@ -6,11 +6,12 @@
 // ray for each of the few pixels, to a sphere through the height that it finds.
 
 #include "gpu/target.h"
+#include "terrain/height_programs.h"
 #include "terrain/sampling_camera.h"
 
 struct impostor {
     const struct surface *surface;
-    struct gpu_program program;
+    struct height_programs programs;
 };
 
 // Whether nobody would see that it is one, and it is cheaper than `pixels` pixels.

@@ -32,7 +32,8 @@ struct projective {
     struct gpu_texture columns; // RGBA32F; see sampling_camera.h
     struct gpu_texture positions;
     struct gpu_target target;
-    struct gpu_program grid_program, mesh_program;
+    struct height_programs grid_programs;
+    struct gpu_program mesh_program;
     struct gpu_mesh mesh;
     struct impostor impostor;
 };
@@ -77,15 +78,10 @@ static trl_result make_mesh(struct projective *p)
 
 static trl_result make_programs(struct projective *p)
 {
-    struct surface_defines defines;
-    surface_get_defines(p->surface, p->surface->counts[SURFACE_ELEVATION], &defines);
-    const struct gpu_program_desc grid = {.vertex = "lib/fullscreen.vert",
-                                          .fragment = "terrain/projective_grid.frag",
-                                          .defines = defines.list,
-                                          .define_count = defines.count};
     const struct gpu_program_desc mesh = {.vertex = "terrain/mesh.vert",
                                           .fragment = "terrain/mesh.frag"};
-    const trl_result result = gpu_program_init(p->gpu, &grid, &p->grid_program);
+    const trl_result result =
+        height_programs_init(p->surface, "terrain/projective_grid.frag", &p->grid_programs);
     return result == TRL_OK ? gpu_program_init(p->gpu, &mesh, &p->mesh_program) : result;
 }
 
@@ -112,11 +108,11 @@ static trl_result make_textures(struct projective *p)
 
 static trl_result draw_grid(struct projective *p, const struct projective_rows_inputs *in)
 {
-    struct gpu_program *program = &p->grid_program;
     const struct anchor *anchor = &p->sampling.anchor;
+    const struct surface_eye layers = sampling_camera_eye(&p->sampling, p->surface);
+    struct gpu_program *program = height_programs_bind(&p->grid_programs, &layers, anchor);
     float planet_from_local[9];
     anchor_planet_from_local(anchor, planet_from_local);
-    surface_bind(p->surface, anchor, program);
     projective_rows_bind(&p->rows, in, program);
     gpu_program_set_texture(program, "u_rows", projective_rows_texture(&p->rows));
     gpu_program_set_mat3(program, "u_planet_from_local", planet_from_local);
@@ -218,7 +214,7 @@ static void destroy(struct mesher *base)
     struct projective *p = (struct projective *)base;
     impostor_finish(&p->impostor);
     gpu_mesh_finish(&p->mesh);
-    gpu_program_finish(&p->grid_program);
+    height_programs_finish(&p->grid_programs);
     gpu_program_finish(&p->mesh_program);
     gpu_target_finish(&p->target);
     gpu_texture_finish(&p->positions);

@@ -57,25 +57,22 @@ static trl_result make_maps(struct projective_rows *rows)
 
 static trl_result make_programs(struct projective_rows *rows)
 {
-    static const char *const FILES[PROJECTIVE_MAPS] = {[PROBES] = "terrain/projective_probe.frag",
-                                                       [HIGHEST] = "terrain/projective_blocks.frag",
+    static const char *const FILES[PROJECTIVE_MAPS] = {[HIGHEST] = "terrain/projective_blocks.frag",
                                                        [SEEN] = "terrain/projective_seen.frag",
                                                        [WEIGHTS] =
                                                            "terrain/projective_weights.frag",
                                                        [ROWS] = "terrain/projective_rows.frag"};
-    struct surface_defines layers;
-    surface_get_defines(rows->surface, rows->surface->counts[SURFACE_ELEVATION], &layers);
     char placing[32];
     snprintf(placing, sizeof placing, "ROWS_BY_SPHERES %d",
              rows->placing == TRL_PROJECTIVE_ROWS_SPHERES ? 1 : 0);
     const char *const placings[1] = {placing};
-    trl_result result = TRL_OK;
-    for (int i = 0; i < PROJECTIVE_MAPS && result == TRL_OK; i++) {
-        const struct gpu_program_desc desc = {
-            .vertex = "lib/fullscreen.vert",
-            .fragment = FILES[i],
-            .defines = i == PROBES ? (const char *const *)layers.list : placings,
-            .define_count = i == PROBES ? layers.count : 1};
+    trl_result result =
+        height_programs_init(rows->surface, "terrain/projective_probe.frag", &rows->probes);
+    for (int i = HIGHEST; i < PROJECTIVE_MAPS && result == TRL_OK; i++) {
+        const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+                                              .fragment = FILES[i],
+                                              .defines = placings,
+                                              .define_count = 1};
         result = gpu_program_init(rows->gpu, &desc, &rows->programs[i]);
     }
     return result;
@@ -97,6 +94,7 @@ trl_result projective_rows_init(const struct surface *surface,
 
 void projective_rows_finish(struct projective_rows *rows)
 {
+    height_programs_finish(&rows->probes);
     for (int i = 0; i < PROJECTIVE_MAPS; i++) {
         gpu_program_finish(&rows->programs[i]);
         gpu_target_finish(&rows->maps[i].target);
@@ -121,15 +119,15 @@ void projective_rows_bind(const struct projective_rows *rows,
     gpu_program_set_texture(program, "u_columns", in->columns);
 }
 
-static void set_inputs(struct projective_rows *rows, const struct projective_rows_inputs *in)
+static void set_inputs(struct projective_rows *rows, const struct projective_rows_inputs *in,
+                       struct gpu_program *probes)
 {
     const struct sampling_camera *s = in->camera;
     const float step = (float)in->column_count / PROBE_COLUMNS;
     const float probe[2] = {step, (float)((s->to_rad - s->from_rad) / in->column_count)};
     const float forward[3] = {(float)s->forward.x, (float)s->forward.y, (float)s->forward.z};
     const float placing[4] = {(float)rows->count, CHORD_SHARE, PIXEL_SHARE, BLEND_START};
-    surface_bind(rows->surface, &s->anchor, &rows->programs[PROBES]);
-    gpu_program_set_vec2(&rows->programs[PROBES], "u_probe", probe);
+    gpu_program_set_vec2(probes, "u_probe", probe);
     gpu_program_set_texture(&rows->programs[HIGHEST], "u_probes", &rows->maps[PROBES].texture);
     gpu_program_set_texture(&rows->programs[SEEN], "u_probes", &rows->maps[PROBES].texture);
     gpu_program_set_texture(&rows->programs[SEEN], "u_highest", &rows->maps[HIGHEST].texture);
@@ -143,13 +141,16 @@ static void set_inputs(struct projective_rows *rows, const struct projective_row
 trl_result projective_rows_draw(struct projective_rows *rows,
                                 const struct projective_rows_inputs *in)
 {
-    set_inputs(rows, in);
+    const struct surface_eye layers = sampling_camera_eye(in->camera, rows->surface);
+    struct gpu_program *probes = height_programs_bind(&rows->probes, &layers, &in->camera->anchor);
+    set_inputs(rows, in, probes);
     trl_result result = TRL_OK;
     for (int i = 0; i < PROJECTIVE_MAPS && result == TRL_OK; i++) {
-        projective_rows_bind(rows, in, &rows->programs[i]);
+        struct gpu_program *program = i == PROBES ? probes : &rows->programs[i];
+        projective_rows_bind(rows, in, program);
         const struct gpu_pass pass = {.target = &rows->maps[i].target};
         gpu_pass_begin(rows->gpu, &pass);
-        result = gpu_draw_fullscreen(&rows->programs[i], "projective rows");
+        result = gpu_draw_fullscreen(program, "projective rows");
     }
     return result;
 }

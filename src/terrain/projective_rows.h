@@ -14,6 +14,7 @@
 //     rows     R32F      shaders/terrain/projective_rows.frag, one for each row
 
 #include "gpu/target.h"
+#include "terrain/height_programs.h"
 #include "terrain/sampling_camera.h"
 #include <terrella/renderer.h>
 
@@ -31,7 +32,8 @@ struct projective_rows {
     const struct surface *surface;
     uint32_t count;
     trl_projective_rows placing;
-    struct gpu_program programs[PROJECTIVE_MAPS];
+    struct height_programs probes;
+    struct gpu_program programs[PROJECTIVE_MAPS]; // of the maps behind the first
     struct projective_map maps[PROJECTIVE_MAPS];
 };
 

@@ -161,6 +161,14 @@ static void sum_density(const struct sampling_camera *s, double sums[DENSITY_STE
     }
 }
 
+struct surface_eye sampling_camera_eye(const struct sampling_camera *s,
+                                       const struct surface *surface)
+{
+    return (struct surface_eye){.up = s->anchor.up,
+                                .reach_rad = s->reach_rad,
+                                .height_rad = s->height_m / surface->radius_m};
+}
+
 static void put_column(const struct sampling_camera *s, double azimuth_rad, float column[4])
 {
     const struct sampling_range range = sampling_camera_range(s, azimuth_rad);

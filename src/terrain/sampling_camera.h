@@ -26,6 +26,10 @@ struct sampling_camera {
 struct sampling_camera sampling_camera_make(const struct surface *surface,
                                             const struct camera *camera);
 
+// For the layers within its reach.
+struct surface_eye sampling_camera_eye(const struct sampling_camera *s,
+                                       const struct surface *surface);
+
 // The part of a half plane that the camera sees: angles from the nadir. Empty: to <= from.
 struct sampling_range {
     double from_rad, to_rad;

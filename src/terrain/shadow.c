@@ -18,19 +18,10 @@ static const double SUN_STEP_RAD = 1.2e-3;
 
 static trl_result make_programs(struct terrain_shadow *s)
 {
-    trl_result result = TRL_OK;
-    for (size_t i = 0; i <= surface_count_seen(s->surface, SURFACE_ELEVATION) && result == TRL_OK;
-         i++) {
-        struct surface_defines defines;
-        surface_get_defines(s->surface, i, &defines);
-        const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
-                                              .fragment = "terrain/shadow_height.frag",
-                                              .defines = defines.list,
-                                              .define_count = defines.count};
-        result = gpu_program_init(s->gpu, &desc, &s->heights[i]);
-    }
     const struct gpu_program_desc spread = {.vertex = "lib/fullscreen.vert",
                                             .fragment = "terrain/shadow_spread.frag"};
+    const trl_result result =
+        height_programs_init(s->surface, "terrain/shadow_height.frag", &s->heights);
     return result == TRL_OK ? gpu_program_init(s->gpu, &spread, &s->spread) : result;
 }
 
@@ -66,9 +57,7 @@ trl_result terrain_shadow_init(const struct surface *surface, double sun_angular
 
 void terrain_shadow_finish(struct terrain_shadow *shadow)
 {
-    for (size_t i = 0; i <= SURFACE_SEEN_LAYERS; i++) {
-        gpu_program_finish(&shadow->heights[i]);
-    }
+    height_programs_finish(&shadow->heights);
     gpu_program_finish(&shadow->spread);
     for (int i = 0; i < 2; i++) {
         gpu_target_finish(&shadow->targets[i]);
@@ -93,9 +82,7 @@ static trl_result draw_heights(struct terrain_shadow *s)
 {
     const struct anchor *anchor = &s->projection.anchor;
     const struct surface_eye eye = projection_eye(&s->projection, s->surface, OUTSIDE_RAD);
-    const struct surface_selection selection = surface_select(s->surface, &eye);
-    struct gpu_program *program = &s->heights[selection.counts[SURFACE_ELEVATION]];
-    surface_bind(s->surface, &selection, anchor, program);
+    struct gpu_program *program = height_programs_bind(&s->heights, &eye, anchor);
     set_map(s, program);
     s->current = 0;
     const struct gpu_pass pass = {.target = &s->targets[0]};

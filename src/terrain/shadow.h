@@ -8,6 +8,7 @@
 // Independent of the mesher. Made anew when the projection camera or the sun moves.
 
 #include "gpu/target.h"
+#include "terrain/height_programs.h"
 #include "terrain/projection.h"
 
 struct terrain_shadow {
@@ -17,7 +18,7 @@ struct terrain_shadow {
     struct projection projection;
     struct vec3 sun; // for which it was made
     double power, extent;
-    struct gpu_program heights[SURFACE_SEEN_LAYERS + 1]; // by the elevation layers in reach
+    struct height_programs heights;
     struct gpu_program spread;
     // R = altitude, m; G = distance to what casts it, m; B = altitude of the ground, m. The two are
     // drawn from one another.
