@@ -4,10 +4,12 @@
 // draws without it.
 #include "terrain/surface.h"
 
+#include "raster/remote.h"
 #include "shared/blend.glsl"
 #include "terrain/bounds.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -28,6 +30,8 @@ struct surface_desc surface_desc_default(void)
 struct loader {
     const struct surface_desc *desc;
     struct surface *surface;
+    trl_context quiet; // the context, but errors of rasters wait in `said` for what becomes of them
+    char said[1024];
     uint8_t *masks[SURFACE_MAX_LAYERS]; // owned; bytes of the water layers
     double bytes;
 };
@@ -129,8 +133,7 @@ static trl_result check_bytes(struct loader *loader, const struct raster *raster
     const struct raster_window w =
         raster_window_whole(raster, gpu ? gpu->caps.max_texture_size : 0);
     const double bytes = (double)w.out_width * w.out_height * KIND_TEXEL_BYTES[desc->kind];
-    loader->bytes += bytes;
-    if (loader->bytes > loader->desc->max_bytes) {
+    if (loader->bytes + bytes > loader->desc->max_bytes) {
         return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
                         "%s: %u x %u texels need %.0f MB; with the other rasters that is more than "
                         "the %.0f MB allowed",
@@ -142,6 +145,7 @@ static trl_result check_bytes(struct loader *loader, const struct raster *raster
                 "%s: %u x %u is reduced to %u x %u, the GPU's largest texture", desc->path,
                 raster->width, raster->height, w.out_width, w.out_height);
     }
+    loader->bytes += bytes;
     return TRL_OK;
 }
 
@@ -176,7 +180,7 @@ static trl_result check_count(const struct loader *loader, const struct surface_
     if (loader->surface->counts[desc->kind] < SURFACE_MAX_LAYERS) {
         return TRL_OK;
     }
-    return trl_fail(loader->surface->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+    return trl_fail(&loader->quiet, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
                     "%s: %d %s layers are all that can be held", desc->path, SURFACE_MAX_LAYERS,
                     KIND_NAMES[desc->kind]);
 }
@@ -207,13 +211,23 @@ static trl_result read_layer(struct loader *loader, const struct surface_layer_d
     }
 }
 
+static void listen(void *user, trl_log_level level, trl_log_item item, const char *message)
+{
+    struct loader *loader = user;
+    if (level == TRL_LOG_ERROR) {
+        snprintf(loader->said, sizeof loader->said, "%s", message);
+    } else {
+        trl_log(loader->surface->ctx, level, item, "%s", message);
+    }
+}
+
 static trl_result load_layer(struct loader *loader, const struct surface_layer_desc *desc)
 {
     struct surface *s = loader->surface;
     struct raster raster = {0};
     trl_result result = check_count(loader, desc);
     if (result == TRL_OK) {
-        result = raster_open(s->ctx, desc->path, &raster);
+        result = raster_open(&loader->quiet, desc->path, &raster);
     }
     if (result != TRL_OK) {
         return result;
@@ -234,17 +248,30 @@ static trl_result load_layer(struct loader *loader, const struct surface_layer_d
     s->counts[desc->kind] += result == TRL_OK;
     if (result != TRL_OK) {
         layer_finish(layer);
+        mem_free(s->ctx, loader->masks[s->counts[SURFACE_WATER]]);
+        loader->masks[s->counts[SURFACE_WATER]] = NULL;
     }
     return result;
 }
 
-// A file that is there and no good is told of by now. Where one is missing that must be there,
-// somebody forgot to fetch it: that is no planet to draw.
-static bool can_go_without(const struct loader *loader, const struct surface_layer_desc *desc,
-                           trl_result result)
+static bool is_there(const char *path)
 {
+    return remote_is_path(path) || access(path, F_OK) == 0;
+}
+
+// A file that is there and no good is left out. Where one is missing that must be there, somebody
+// forgot to fetch it: that is no planet to draw. Either way one line tells.
+static trl_result go_without(struct loader *loader, const struct surface_layer_desc *desc,
+                             trl_result result)
+{
+    const trl_context *ctx = loader->surface->ctx;
     const bool is_bad = result == TRL_ERROR_INVALID || result == TRL_ERROR_IO;
-    return is_bad && !loader->desc->is_strict && access(desc->path, R_OK) == 0;
+    if (is_bad && !loader->desc->is_strict && is_there(desc->path)) {
+        trl_log(ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER, "%s; left out", loader->said);
+        return TRL_OK;
+    }
+    return loader->said[0] ? trl_fail(ctx, result, TRL_LOG_ITEM_RASTER, "%s", loader->said)
+                           : result;
 }
 
 // Water before the rest: heights are raised to sea level by it.
@@ -255,11 +282,15 @@ static trl_result load_layers(struct loader *loader)
     for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
         for (size_t i = 0; i < loader->desc->layer_count; i++) {
             const struct surface_layer_desc *desc = &loader->desc->layers[i];
-            if (desc->kind != ORDER[k] || (desc->is_optional && access(desc->path, F_OK) != 0)) {
+            if (desc->kind != ORDER[k] || (desc->is_optional && !is_there(desc->path))) {
                 continue;
             }
-            const trl_result result = load_layer(loader, desc);
-            if (result != TRL_OK && !can_go_without(loader, desc, result)) {
+            loader->said[0] = '\0';
+            trl_result result = load_layer(loader, desc);
+            if (result != TRL_OK) {
+                result = go_without(loader, desc, result);
+            }
+            if (result != TRL_OK) {
                 return result;
             }
         }
@@ -283,7 +314,9 @@ static trl_result fill_surface(const struct surface_desc *desc, struct surface *
     for (int c = 0; c < 3; c++) {
         out->default_albedo[c] = desc->default_albedo[c];
     }
-    struct loader loader = {.desc = desc, .surface = out};
+    struct loader loader = {.desc = desc, .surface = out, .quiet = *out->ctx};
+    loader.quiet.desc.log = listen;
+    loader.quiet.desc.log_user = &loader;
     trl_result result = load_layers(&loader);
     if (result == TRL_OK) {
         result = surface_find_bounds(out);

@@ -18,7 +18,7 @@ static void keep_error(void *user, trl_log_level level, trl_log_item item, const
 {
     struct fixture *f = user;
     (void)item;
-    if (level == TRL_LOG_ERROR) {
+    if (level <= TRL_LOG_WARN) {
         snprintf(f->last_error, sizeof f->last_error, "%s", message);
     }
 }

@@ -377,6 +377,7 @@ static void test_bad_layers_are_left_out(void **state)
         f->last_error[0] = '\0';
         assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
         assert_non_null(strstr(f->last_error, paths[i]));
+        assert_non_null(strstr(f->last_error, "left out"));
         assert_int_equal(s.counts[SURFACE_ELEVATION], 1);
         assert_close(surface_altitude(&s, (struct vec3){1, 0.2, 0.3}), 100, 1e-6);
         surface_finish(&s);
