@@ -12,19 +12,20 @@ SHARED_STRUCT(LocalDirection)
     Number x, y, z; // unit direction - (0, 0, 1)
 };
 
-// Square rings |max(gx, gy)| = m move to m^power: cells shrink toward the middle in proportion to
-// the distance from it. Returns the factor for gx and gy. power >= 1.
-SHARED_FN Number hemisphere_warp(Number gx, Number gy, Number power)
+// Square rings |max(gx, gy)| = m move: evenly up to m = `inner`, in (0, 1], beyond which each is
+// larger than the last by the same factor, to 1 at 1. Cells then have one size as seen from the
+// middle. Returns the factor for gx and gy, continuous with its first derivative.
+SHARED_FN Number hemisphere_warp(Number gx, Number gy, Number inner)
 {
-    Number ring = shared_max(shared_abs(gx), shared_abs(gy));
-    return pow(shared_max(ring, 1e-6), power - 1.0);
+    Number ring = shared_max(shared_max(shared_abs(gx), shared_abs(gy)), inner);
+    return exp((ring - 1.0) / inner) / ring;
 }
 
 // Eq. 1 and 2 with n = 4: the grid point (gx, gy) in [-1, 1]^2, lifted to the approximate
 // hemisphere and by `lift` (z_s, Eq. 3), seen from the planet's centre.
-SHARED_FN LocalDirection hemisphere_direction(Number gx, Number gy, Number power, Number lift)
+SHARED_FN LocalDirection hemisphere_direction(Number gx, Number gy, Number inner, Number lift)
 {
-    Number warp = hemisphere_warp(gx, gy, power);
+    Number warp = hemisphere_warp(gx, gy, inner);
     Number x = gx * warp;
     Number y = gy * warp;
     Number z = (1.0 - x * x * x * x) * (1.0 - y * y * y * y) + lift;
@@ -37,10 +38,18 @@ SHARED_FN LocalDirection hemisphere_direction(Number gx, Number gy, Number power
     return d;
 }
 
+// Square rings of the shadow map move to m^power: cells shrink toward the middle in proportion to
+// the distance from it. Returns the factor for gx and gy. power >= 1.
+SHARED_FN Number shadow_map_warp(Number gx, Number gy, Number power)
+{
+    Number ring = shared_max(shared_abs(gx), shared_abs(gy));
+    return pow(shared_max(ring, 1e-6), power - 1.0);
+}
+
 // Stereographic square of the shadow map: the side's middle is `extent` = tan(angle / 2) away.
 SHARED_FN LocalDirection shadow_map_direction(Number gx, Number gy, Number power, Number extent)
 {
-    Number warp = hemisphere_warp(gx, gy, power) * extent;
+    Number warp = shadow_map_warp(gx, gy, power) * extent;
     Number x = gx * warp;
     Number y = gy * warp;
     Number t2 = x * x + y * y;

@@ -5,7 +5,7 @@
 #include "terrain/depth.glsl"
 
 uniform highp sampler2D u_positions;
-uniform vec3 u_camera_offset; // anchor on the sphere - camera, planet axes, m
+uniform vec3 u_camera_offset; // anchor at the base altitude - camera, planet axes, m
 uniform mat3 u_view;          // rows right / tan, up / tan, forward
 
 out vec4 v_position; // relative to the camera; altitude

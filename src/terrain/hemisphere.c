@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 // The hemisphere mesher, Michelic 2019, Section 3: a square grid seen from the planet's centre,
 // facing the camera, that reaches the highest mountain beyond the horizon. It differs from the
-// paper in three ways. Rings of the grid are drawn toward the camera's ground point by a power law,
-// which takes the place of tessellation. Vertices are made once for a projection camera, by a
-// fragment pass into a texture (resources: u_positions, RGBA32F, cells + 1 to a side), since vertex
-// shaders are slow in software. The frustum and the horizon cull chunks of the grid on the CPU.
+// paper in three ways. Rings of the grid are drawn toward the camera's ground point, so that cells
+// have one size as seen from there, which takes the place of tessellation. Vertices are made once
+// for a projection camera, by a fragment pass into a texture (resources: u_positions, RGBA32F,
+// cells + 1 to a side), since vertex shaders are slow in software. The frustum and the horizon cull
+// chunks of the grid on the CPU.
 #include "terrain/mesher.h"
 
 #include "gpu/mesh.h"
@@ -25,7 +26,6 @@ enum {
     CHUNK_ROW = CELLS / CHUNK_CELLS,
     CHUNKS = CHUNK_ROW * CHUNK_ROW
 };
-static const double RING_AT_NEAR = 30; // see projection.near_m
 // The higher the camera, the more of the grid is in view at once, and the smaller it is there:
 // above these parts of the radius every second and every fourth vertex is enough.
 enum { MESHES = 3 };
@@ -45,7 +45,8 @@ struct hemisphere {
     struct gpu *gpu;
     const struct surface *surface;
     struct projection projection;
-    double power;
+    double inner;   // of the warp
+    double base_m;  // altitude from which positions count, above the anchor; a float
     uint32_t level; // of `meshes`
     struct camera camera;
     struct chunk chunks[CHUNKS];
@@ -134,7 +135,7 @@ static trl_result make_target(struct hemisphere *h)
 static struct vec3 grid_direction(const struct hemisphere *h, double x, double y)
 {
     const LocalDirection d =
-        hemisphere_direction(2 * x / CELLS - 1, 2 * y / CELLS - 1, h->power, h->projection.lift);
+        hemisphere_direction(2 * x / CELLS - 1, 2 * y / CELLS - 1, h->inner, h->projection.lift);
     return (struct vec3){d.x, d.y, d.z + 1};
 }
 
@@ -174,7 +175,7 @@ static void place_chunk(struct hemisphere *h, uint32_t index)
 
 static trl_result draw_grid(struct hemisphere *h)
 {
-    const float grid[4] = {CELLS, (float)h->power, (float)h->projection.lift, 0};
+    const float grid[4] = {CELLS, (float)h->inner, (float)h->projection.lift, (float)h->base_m};
     float planet_from_local[9];
     anchor_planet_from_local(&h->projection.anchor, planet_from_local);
     const struct surface_eye eye = projection_eye(&h->projection, h->surface, 0);
@@ -195,10 +196,11 @@ static trl_result update(struct mesher *base, const struct camera *camera)
         return TRL_OK;
     }
     h->projection = projection_make(h->surface, camera);
+    h->base_m = (double)(float)surface_altitude(h->surface, camera->position_m);
     // Distance on the ground near the middle, as grid coordinate: the apex of Eq. 2 is 1 above z_s.
     const double apex = 1 + h->projection.lift;
     const double near = h->projection.near_m / h->surface->radius_m * fmax(apex, 0.1);
-    h->power = projection_power(near, RING_AT_NEAR, CELLS / 2.0);
+    h->inner = 1 / (1 - log(fmin(near, 1)));
     h->level = 0;
     while (h->level + 1 < MESHES &&
            h->projection.height_m > COARSER_ABOVE[h->level + 1] * h->surface->radius_m) {
@@ -236,7 +238,8 @@ static bool is_above_horizon(const struct hemisphere *h, const struct chunk *c)
 static void set_camera(struct hemisphere *h)
 {
     const struct camera *c = &h->camera;
-    const struct vec3 ground = vec3_scale(h->projection.anchor.up, h->surface->radius_m);
+    const struct vec3 ground =
+        vec3_scale(h->projection.anchor.up, h->surface->radius_m + h->base_m);
     const struct vec3 offset = vec3_sub(ground, c->position_m);
     const struct vec3 rows[3] = {vec3_scale(c->right, 1 / c->tan_half_fov_x),
                                  vec3_scale(c->up, 1 / c->tan_half_fov_y), c->forward};
