@@ -5,12 +5,27 @@
 #include "frame/ground.h"
 #include "terrain/look.h"
 
-trl_result relief_init(const trl_context *ctx, const struct trl_scene *scene, struct relief *out)
+static size_t keep_heights(struct surface_layer_desc *layers, size_t count)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (layers[i].kind == SURFACE_ELEVATION || layers[i].kind == SURFACE_WATER) {
+            layers[kept++] = layers[i];
+        }
+    }
+    return kept;
+}
+
+static trl_result init(const trl_context *ctx, const struct trl_scene *scene, bool has_pictures,
+                       struct relief *out)
 {
     *out = (struct relief){.lights_cd_m2 = ground_find_lights_cd_m2(scene)};
     struct surface_layer_desc layers[SCENE_MAX_LAYERS];
     struct surface_desc desc;
     ground_describe(scene, layers, &desc);
+    if (!has_pictures) {
+        desc.layer_count = keep_heights(layers, desc.layer_count);
+    }
     trl_result result = trl_progress(ctx, "reading rasters", 0);
     if (result == TRL_OK) {
         result = surface_init_on_cpu(ctx, &desc, &out->surface);
@@ -23,6 +38,17 @@ trl_result relief_init(const trl_context *ctx, const struct trl_scene *scene, st
         relief_finish(out);
     }
     return result;
+}
+
+trl_result relief_init(const trl_context *ctx, const struct trl_scene *scene, struct relief *out)
+{
+    return init(ctx, scene, true, out);
+}
+
+trl_result relief_init_heights(const trl_context *ctx, const struct trl_scene *scene,
+                               struct relief *out)
+{
+    return init(ctx, scene, false, out);
 }
 
 void relief_finish(struct relief *relief)
@@ -43,10 +69,10 @@ static double find_altitude(const void *user, struct vec3 direction)
     return surface_altitude(&relief->surface, direction);
 }
 
-static double find_step(const void *user, struct vec3 direction)
+static double find_step(const void *user, struct vec3 direction, double reach_m)
 {
     const struct relief *relief = user;
-    return surface_half_texel_m(&relief->surface, direction);
+    return surface_half_texel_m(&relief->surface, direction, reach_m / relief->surface.radius_m);
 }
 
 static double find_ceiling(const void *user, struct vec3 direction, double reach_m)

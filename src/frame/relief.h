@@ -18,6 +18,9 @@ struct relief {
 // Reads the rasters of a scene, which must outlive the relief. As surface_init_on_cpu.
 TRL_MUST_USE trl_result relief_init(const trl_context *ctx, const struct trl_scene *scene,
                                     struct relief *out);
+// The same without colours and lights: look() tells the normal only.
+TRL_MUST_USE trl_result relief_init_heights(const trl_context *ctx, const struct trl_scene *scene,
+                                            struct relief *out);
 void relief_finish(struct relief *relief);
 
 double relief_altitude_m(const struct relief *relief, double latitude_rad, double longitude_rad);

@@ -157,7 +157,7 @@ static struct flight prepare(const struct reference_tracer *tracer,
     flight.hits_ground = flight.ray.hits_bottom;
     if (surface) {
         const struct reference_way way = {path->position, path->direction,
-                                          flight.ray.end_m - flight.ray.begin_m};
+                                          flight.ray.end_m - flight.ray.begin_m, 0};
         const double met_m =
             reference_surface_meet(surface, tracer->world->scene.medium->ground_radius_m, &way);
         flight.hits_ground = met_m >= 0;

@@ -16,7 +16,7 @@ static bool is_in_shadow(const struct reference_tracer *tracer, const struct ref
     if (!scene->surface) {
         return ray->hits_bottom;
     }
-    const struct reference_way way = {path->position, direction, ray->end_m - ray->begin_m};
+    const struct reference_way way = {path->position, direction, ray->end_m - ray->begin_m, 0};
     return reference_surface_meet(scene->surface, scene->medium->ground_radius_m, &way) >= 0;
 }
 

@@ -26,8 +26,9 @@ struct reference_surface {
     double white_cd_m2;         // luminance of the ground's own light where that is white
     // Altitude above the medium's ground.
     double (*altitude_m)(const void *user, struct vec3 direction);
-    // What is smaller, along the ground around there, is not looked for; > 0.
-    double (*step_m)(const void *user, struct vec3 direction);
+    // Along the ground within `reach_m` the height bends as a parabola does over this length,
+    // nearly: half a texel of the finest raster there; > 0.
+    double (*step_m)(const void *user, struct vec3 direction, double reach_m);
     // An altitude that no ground within `reach_m` (along the ground) rises above.
     double (*ceiling_m)(const void *user, struct vec3 direction, double reach_m);
     void (*look)(const void *user, struct vec3 direction, struct reference_look *look);
@@ -37,11 +38,14 @@ struct reference_surface {
 struct reference_way {
     struct vec3 from_m, direction;
     double length_m;
+    double pixel_rad; // what is narrower, seen from the start, is not looked for; 0: everything is
 };
 
-// Distance along the way to the ground of a surface over a sphere of `radius_m`, or a negative
-// number if there is none. A way that begins below the ground meets it at once. Ground that
-// rises above the way over less than `step_m` may be missed.
+// Distance along the way to the first ground of a surface over a sphere of `radius_m`, or a
+// negative number if there is none. A way that begins below the ground meets it at once. Between
+// places that are looked at the height may leave a parabola through three of them by eight times
+// what that parabola bends; where it bends more, the way is halved, down to a 64th of `step_m` or a
+// quarter of a pixel.
 double reference_surface_meet(const struct reference_surface *surface, double radius_m,
                               const struct reference_way *way);
 

@@ -70,13 +70,22 @@ bool surface_picture(const struct surface *surface, enum surface_kind kind, stru
     return is_covered;
 }
 
-double surface_half_texel_m(const struct surface *surface, struct vec3 direction)
+static bool is_within(const struct layer_frame *frame, const struct place *at, double reach_rad)
+{
+    const struct vec3 here = vec3_from_lat_lon(at->latitude, at->longitude);
+    const struct vec3 middle = vec3_from_lat_lon(frame->centre_latitude, frame->centre_longitude);
+    const double away = acos(fmax(-1, fmin(1, vec3_dot(here, middle))));
+    return away <= reach_rad + hypot(frame->half_width, frame->half_height);
+}
+
+double surface_half_texel_m(const struct surface *surface, struct vec3 direction, double reach_rad)
 {
     const struct place at = find_place(direction);
     double finest = 2 * BARE_STEP;
     for (size_t i = 0; i < surface->counts[SURFACE_ELEVATION]; i++) {
         const struct layer_frame *frame = &surface->layers[SURFACE_ELEVATION][i].frame;
-        if (layer_locate(frame, at.latitude, at.longitude).weight > 0) {
+        if (layer_locate(frame, at.latitude, at.longitude).weight > 0 ||
+            (reach_rad > 0 && is_within(frame, &at, reach_rad))) {
             finest = fmin(finest, frame->texel_height);
         }
     }
@@ -89,7 +98,7 @@ struct vec3 surface_normal(const struct surface *surface, struct vec3 direction)
     const struct vec3 axis = fabs(up.z) < 0.9 ? (struct vec3){0, 0, 1} : (struct vec3){1, 0, 0};
     const struct vec3 along[2] = {vec3_normalize(vec3_cross(axis, up)),
                                   vec3_cross(up, vec3_normalize(vec3_cross(axis, up)))};
-    const double step = SLOPE_STEP * surface_half_texel_m(surface, up) / surface->radius_m;
+    const double step = SLOPE_STEP * surface_half_texel_m(surface, up, 0) / surface->radius_m;
     struct vec3 normal = up;
     for (int i = 0; i < 2; i++) {
         const struct vec3 aside = vec3_scale(along[i], step);

@@ -15,8 +15,8 @@ bool surface_picture(const struct surface *surface, enum surface_kind kind, stru
 // Unit normal of the composed heights.
 struct vec3 surface_normal(const struct surface *surface, struct vec3 direction);
 
-// Half the height of a texel, in m on the sphere, of the finest elevation layer that reaches there;
-// without one a hundredth of the radius.
-double surface_half_texel_m(const struct surface *surface, struct vec3 direction);
+// Half the height of a texel, in m on the sphere, of the finest elevation layer that reaches within
+// `reach_rad` of a direction; without one a hundredth of the radius.
+double surface_half_texel_m(const struct surface *surface, struct vec3 direction, double reach_rad);
 
 #endif // TERRAIN_LOOK_H

@@ -42,10 +42,11 @@ static double dome_ceiling(const void *user, struct vec3 direction, double reach
     return away <= 1.01 * (dome_m + reach_m) ? dome_m : 0;
 }
 
-static double fine_step(const void *user, struct vec3 direction)
+static double fine_step(const void *user, struct vec3 direction, double reach_m)
 {
     (void)user;
     (void)direction;
+    (void)reach_m;
     return 20;
 }
 
@@ -103,7 +104,7 @@ static void rays_meet_the_ground_where_it_is(void **state)
         const struct vec3 to_m = {9e3 * (random_next(&random) - 0.5),
                                   9e3 * (random_next(&random) - 0.5),
                                   radius_m + 20e3 * random_next(&random)};
-        const struct reference_way way = {from_m, vec3_normalize(vec3_sub(to_m, from_m)), 400e3};
+        const struct reference_way way = {from_m, vec3_normalize(vec3_sub(to_m, from_m)), 400e3, 0};
         const double expected = way_to_ground(way.from_m, way.direction);
         const double got = reference_surface_meet(&dome, radius_m, &way);
         const struct vec3 at = vec3_add(from_m, vec3_scale(way.direction, expected));
@@ -119,6 +120,79 @@ static void rays_meet_the_ground_where_it_is(void **state)
         }
     }
     assert_true(met > 1000 && passed > 500);
+}
+
+// Waves of 900 and 1100 m: as rough as a raster of texels of 300 m.
+static double wavy_altitude(const void *user, struct vec3 direction)
+{
+    (void)user;
+    const struct vec3 unit = vec3_normalize(direction);
+    return 150 * sin(radius_m * unit.x / 140) * sin(radius_m * unit.y / 175) +
+           40 * sin(radius_m * unit.x / 95);
+}
+
+static double wavy_step(const void *user, struct vec3 direction, double reach_m)
+{
+    (void)user;
+    (void)direction;
+    (void)reach_m;
+    return 150;
+}
+
+static double wavy_ceiling(const void *user, struct vec3 direction, double reach_m)
+{
+    (void)user;
+    (void)direction;
+    (void)reach_m;
+    return 190;
+}
+
+static double wavy_clearance(const struct reference_way *way, double t)
+{
+    const struct vec3 at = vec3_add(way->from_m, vec3_scale(way->direction, t));
+    return vec3_length(at) - radius_m - wavy_altitude(NULL, at);
+}
+
+// The first of steps of 0.25 m that is not above the ground: no wave, of curvature 150 / 140^2, can
+// rise above a ray by more than 0.1 mm between two of them.
+static double way_by_small_steps(const struct reference_way *way)
+{
+    double t = 0;
+    while (t < way->length_m && wavy_clearance(way, t) > 0) {
+        t += 0.25;
+    }
+    return t < way->length_m ? t : -1;
+}
+
+// Nearly level, just above the crests: the first touch and not a later one.
+static void grazing_rays_meet_the_first_crest(void **state)
+{
+    (void)state;
+    const struct reference_surface waves = {.lowest_m = -190,
+                                            .highest_m = 190,
+                                            .altitude_m = wavy_altitude,
+                                            .step_m = wavy_step,
+                                            .ceiling_m = wavy_ceiling,
+                                            .look = dome_look};
+    struct random_stream random = random_stream_for(5, 0, 0);
+    int met = 0, passed = 0;
+    for (int i = 0; i < 300; ++i) {
+        const double turn = 2 * pi * random_next(&random);
+        const double fall = 0.01 * (random_next(&random) - 0.5);
+        const struct vec3 from_m = {1e4 * random_next(&random), 1e4 * random_next(&random),
+                                    radius_m + 100 + 90 * random_next(&random)};
+        const struct vec3 toward = {cos(turn), sin(turn), fall};
+        const struct reference_way way = {from_m, vec3_normalize(toward), 8e3, 0};
+        const double expected = way_by_small_steps(&way);
+        const double got = reference_surface_meet(&waves, radius_m, &way);
+        assert_true((got >= 0) == (expected >= 0));
+        if (expected > 0) {
+            assert_true(got <= expected && got > expected - 0.3);
+            ++met;
+        }
+        passed += expected < 0;
+    }
+    assert_true(met > 100 && passed > 30);
 }
 
 // Without air, one reflection: what is lit is Lambert's cosine, what the dome hides is black.
@@ -242,6 +316,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_meet_the_ground_where_it_is),
+        cmocka_unit_test(grazing_rays_meet_the_first_crest),
         cmocka_unit_test(domes_are_lit_and_cast_shadows),
         cmocka_unit_test(a_level_surface_is_a_larger_sphere),
     };
