@@ -29,6 +29,7 @@ static inline int bench_runs(const struct bench_job *job, int fallback)
 trl_renderer_desc bench_renderer_desc(const struct bench_job *job, const trl_scene *scene);
 
 trl_result bench_run_solver(const struct bench_job *job);
+trl_result bench_run_terrain_error(const struct bench_job *job);
 trl_result bench_run_tables(const struct bench_job *job);
 trl_result bench_run_sky_frame(const struct bench_job *job);
 trl_result bench_run_start(const struct bench_job *job);

@@ -10,7 +10,7 @@
 #include "bench_machine.h"
 
 enum {
-    BENCH_MAX_ROWS = 256,
+    BENCH_MAX_ROWS = 1024,
     BENCH_MAX_RUNS = 1000,
     BENCH_NAME_MAX = 64,
     BENCH_MAX_NOTES = 16,

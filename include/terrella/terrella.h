@@ -9,6 +9,7 @@
 #include <terrella/atmosphere.h>
 #include <terrella/base.h>
 #include <terrella/context.h>
+#include <terrella/ground.h>
 #include <terrella/image.h>
 #include <terrella/reference.h>
 #include <terrella/renderer.h>

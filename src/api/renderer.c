@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
+#include "api/renderer.h"
 #include "api/check.h"
 #include "api/rayleigh.h"
-#include "frame/frame.h"
 #include "scatter/atmosphere.h"
 #include "scatter/medium_edit.h"
 #include "terrain/projective.h"
@@ -11,11 +11,6 @@
 #include <math.h>
 
 enum { RENDERER_CANARY = 0x54524431 };
-
-struct trl_renderer {
-    const trl_context *ctx;
-    struct frame frame;
-};
 
 trl_renderer_desc trl_renderer_desc_default(void)
 {

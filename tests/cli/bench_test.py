@@ -34,6 +34,20 @@ class Bench(ProgramTest):
         for line in lines:
             self.assertGreater(len(line.split()), 3, line)
 
+    def test_terrain_error(self):
+        (self.data / "h.tif").write_bytes(make_tiff(256, 128))
+        path = self.write_scene(add_layers({"name": "h", "elevation": "h.tif", "scale": 0.1}))
+        words = ["bench", "terrain-error", "--json", "--runs", 1, "--mesher", "hemisphere", "--scene", path]
+        rows = json.loads(self.expect_success(*words).stdout)["rows"]
+        values = {(row["case"], row["metric"]): row["median"] for row in rows}
+        worst = values["all views, hemisphere", "worst RMS"]
+        self.assertTrue(0 < worst < 1, worst)
+        self.assertEqual({row["unit"] for row in rows}, {"px", "ms", "MB", "%", "", "px ms"})
+        self.assertTrue(all(values[key] == 0 for key in values if key[1] == "holes"))
+        # A scene of the sphere alone has no mesh.
+        words[-1] = self.write_scene(name="bare.json")
+        self.expect_failure(1, words, ["no mesh"])
+
     def test_unknown_names_are_told(self):
         self.expect_failure(2, ["bench", "solvre"], ["solvre", "solver"])
         self.expect_failure(2, ["bench", "gravity"], ["gravity", "--list"])

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// How far each mesh of the ground is from the truth, and what it costs. docs/bench.md tells what is
+// measured.
+#include "bench_terrain.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <terrella/ground.h>
+
+enum { DEFAULT_FRAMES = 3, FLIGHT_FRAMES = 120, FLIGHT_STEP = 2, TIMINGS_MAX = 32 };
+static const struct number_size SCREEN = {1024, 576};
+
+struct terrain_bench {
+    const struct bench_job *job;
+    const trl_scene *scene;
+    struct bench_terrain_views views;
+    trl_ground *ground;
+    trl_renderer *renderer;
+    const char *mesher;
+    // Of the mesher, over all views.
+    double error2_px2, time_ms;
+    double worst_rms_px;
+};
+
+static trl_result add(const struct terrain_bench *b, const char *where, struct bench_sample sample)
+{
+    char name[BENCH_NAME_MAX];
+    snprintf(name, sizeof name, "%.40s, %.20s", where, b->mesher);
+    sample.case_name = name;
+    return bench_add(b->job->table, sample);
+}
+
+static trl_result report(const struct terrain_bench *b, const char *what, double fraction)
+{
+    if (progress_report(&b->job->app->progress, what, fraction)) {
+        return TRL_OK;
+    }
+    report_error(EXIT_FAILED, "cancelled while measuring %s", what);
+    return TRL_ERROR_CANCELLED;
+}
+
+static double find_mesh_ms(const trl_renderer *renderer)
+{
+    trl_timing rows[TIMINGS_MAX];
+    const size_t all = trl_renderer_timings(renderer, rows, TIMINGS_MAX);
+    for (size_t i = 0; i < all && i < TIMINGS_MAX; i++) {
+        if (strcmp(rows[i].name, "mesh") == 0) {
+            return rows[i].gpu_ms > 0 ? rows[i].gpu_ms : rows[i].cpu_ms;
+        }
+    }
+    return 0;
+}
+
+// The first frame from a place makes the mesh for it; the next ones draw it.
+static trl_result time_view(struct terrain_bench *b, const struct bench_terrain_view *view)
+{
+    const int frames = bench_runs(b->job, DEFAULT_FRAMES);
+    double least_ms = (double)INFINITY;
+    trl_result result = TRL_OK;
+    for (int i = 0; result == TRL_OK && i <= frames; i++) {
+        result = trl_renderer_draw(b->renderer, &view->view, SCREEN.width, SCREEN.height, 0);
+        const double ms = find_mesh_ms(b->renderer);
+        if (result == TRL_OK) {
+            result = add(b, view->name,
+                         (struct bench_sample){NULL, i == 0 ? "mesh made anew" : "mesh", "ms", ms});
+        }
+        least_ms = i > 0 ? fmin(least_ms, ms) : least_ms;
+    }
+    b->time_ms += least_ms;
+    return result;
+}
+
+static trl_result add_error(struct terrain_bench *b, const char *where, const trl_mesh_error *e)
+{
+    trl_mesh_stats stats;
+    trl_result result = trl_renderer_mesh_stats(b->renderer, &stats);
+    const struct bench_sample rows[] = {
+        {NULL, "shift, RMS", "px", e->shift_rms_px},
+        {NULL, "shift, largest", "px", e->shift_max_px},
+        {NULL, "silhouette, RMS", "px", e->edge_rms_px},
+        {NULL, "silhouette, largest", "px", e->edge_max_px},
+        {NULL, "silhouettes not found", "%", e->edges ? 100.0 * e->lost_edges / e->edges : 0},
+        {NULL, "holes", "", e->holes},
+        {NULL, "processor time", "ms", e->cpu_ms},
+        {NULL, "triangles", "", stats.triangles},
+        {NULL, "mesher's memory", "MB", 1e-6 * (double)stats.bytes}};
+    for (size_t i = 0; result == TRL_OK && i < sizeof rows / sizeof *rows; i++) {
+        result = add(b, where, rows[i]);
+    }
+    const double rms_px = fmax(e->shift_rms_px, e->edge_rms_px);
+    b->worst_rms_px = fmax(b->worst_rms_px, rms_px);
+    b->error2_px2 += rms_px * rms_px;
+    return result;
+}
+
+static trl_result measure_view(struct terrain_bench *b, const struct bench_terrain_view *view)
+{
+    trl_mesh_check_desc desc = trl_mesh_check_desc_default();
+    desc.view = &view->view;
+    desc.width = SCREEN.width;
+    desc.height = SCREEN.height;
+    trl_mesh_check *check = NULL;
+    trl_result result = trl_mesh_check_create(b->ground, b->renderer, &desc, &check);
+    if (result == TRL_OK) {
+        const trl_mesh_error error = trl_mesh_check_error(check);
+        result = add_error(b, view->name, &error);
+    }
+    trl_mesh_check_destroy(&check);
+    return result;
+}
+
+static trl_result fly(struct terrain_bench *b)
+{
+    trl_mesh_check *before = NULL;
+    trl_mesh_change worst = {0};
+    double worst_px = 0;
+    trl_result result = TRL_OK;
+    for (int i = 0; result == TRL_OK && i < FLIGHT_FRAMES; i++) {
+        const trl_view view = bench_terrain_flight(&b->views, i, FLIGHT_FRAMES);
+        trl_mesh_check_desc desc = trl_mesh_check_desc_default();
+        desc.view = &view;
+        desc.width = SCREEN.width;
+        desc.height = SCREEN.height;
+        desc.step = FLIGHT_STEP;
+        desc.has_edges = false;
+        trl_mesh_check *check = NULL;
+        trl_mesh_change change = {0};
+        result = trl_mesh_check_create(b->ground, b->renderer, &desc, &check);
+        if (result == TRL_OK && before) {
+            result = trl_mesh_check_change(before, check, &change);
+        }
+        worst = change.rms_px > worst.rms_px ? change : worst;
+        worst_px = fmax(worst_px, change.highest_px);
+        trl_mesh_check_destroy(&before);
+        before = check;
+        result = result == TRL_OK ? report(b, "flight", (double)i / FLIGHT_FRAMES) : result;
+    }
+    trl_mesh_check_destroy(&before);
+    const struct bench_sample rms = {NULL, "popping, RMS", "px", worst.rms_px};
+    const struct bench_sample most = {NULL, "popping, 999 of 1000", "px", worst_px};
+    result = result == TRL_OK ? add(b, "flight", rms) : result;
+    return result == TRL_OK ? add(b, "flight", most) : result;
+}
+
+static trl_result measure_mesher(struct terrain_bench *b, trl_mesher mesher)
+{
+    b->mesher = trl_mesher_name(mesher);
+    b->error2_px2 = b->time_ms = b->worst_rms_px = 0;
+    trl_result result = trl_renderer_set_mesher(b->renderer, mesher);
+    for (int i = 0; result == TRL_OK && i < b->views.count; i++) {
+        result = report(b, b->views.of[i].name, (double)i / b->views.count);
+        result = result == TRL_OK ? time_view(b, &b->views.of[i]) : result;
+        result = result == TRL_OK ? measure_view(b, &b->views.of[i]) : result;
+    }
+    if (result == TRL_OK && b->views.has_flight) {
+        result = fly(b);
+    }
+    const int count = b->views.count > 0 ? b->views.count : 1;
+    const double rms_px = sqrt(b->error2_px2 / count), ms = b->time_ms / count;
+    const struct bench_sample rows[] = {{NULL, "worst RMS", "px", b->worst_rms_px},
+                                        {NULL, "RMS", "px", rms_px},
+                                        {NULL, "mesh, mean", "ms", ms},
+                                        {NULL, "RMS x mesh", "px ms", rms_px * ms}};
+    for (size_t i = 0; result == TRL_OK && i < sizeof rows / sizeof *rows; i++) {
+        result = add(b, "all views", rows[i]);
+    }
+    return result;
+}
+
+static trl_result measure(struct terrain_bench *b)
+{
+    trl_renderer_desc desc = bench_renderer_desc(b->job, b->scene);
+    desc.measures_time = true;
+    trl_context *ctx = b->job->app->ctx;
+    trl_result result = bench_terrain_choose_views(b->scene, &b->views);
+    result = result == TRL_OK ? trl_ground_create(ctx, b->scene, &b->ground) : result;
+    result = result == TRL_OK ? trl_renderer_create(ctx, &desc, &b->renderer) : result;
+    for (int m = 0; result == TRL_OK && trl_mesher_name((trl_mesher)m); m++) {
+        if (b->job->mesher < 0 || b->job->mesher == m) {
+            result = measure_mesher(b, (trl_mesher)m);
+        }
+    }
+    trl_renderer_destroy(&b->renderer);
+    trl_ground_destroy(&b->ground);
+    return result;
+}
+
+trl_result bench_run_terrain_error(const struct bench_job *job)
+{
+    trl_scene *scene = NULL;
+    struct terrain_bench b = {.job = job};
+    trl_result result = bench_load_scene(job, "earth.json", &scene);
+    if (result == TRL_OK) {
+        b.scene = scene;
+        result = measure(&b);
+    }
+    trl_scene_destroy(&scene);
+    bench_note(
+        job->table,
+        "Errors in pixels of %u x %u. Shift: where the truth shows what is drawn at a pixel; "
+        "silhouettes: at a right angle. Goal: every RMS below 1.",
+        SCREEN.width, SCREEN.height);
+    return result;
+}

@@ -1,0 +1,425 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "frame/mesh_check.h"
+
+#include <math.h>
+#include <time.h>
+
+// For silhouettes the mesh is drawn FINER times as fine along columns as places are looked at; odd,
+// so that one of the rows goes through the places.
+enum { FINER = 15 };
+// Neighbouring places whose distances differ by more than this factor may have a silhouette between
+// them; what still does so at a hundredth of a pixel is one.
+static const double EDGE_RATIO = 1.25;
+static const double SURE_EDGE_RATIO = 1.1;
+static const double EDGE_PRECISION = 0.01;
+// Silhouettes steeper than this in the picture are left out: they are looked for along columns.
+static const double MAX_EDGE_SLOPE = 3;
+
+// What is known while a view is checked.
+struct checker {
+    const struct mesh_check_desc *desc;
+    const struct reference_hit *hits;
+    struct mesh_check *check;
+    float *drawn;    // owned; columns x fine_rows x 4, lowest row first
+    double *edges_y; // owned; columns x rows: place of the silhouette above each row, in pixels
+                     // from the lower border; NAN: none
+    float *edges_m;  // owned; the distance that parts its sides; INFINITY: the sky is one
+    uint32_t finer, fine_rows;
+};
+
+void mesh_check_size(const struct mesh_check_desc *desc, uint32_t size[2])
+{
+    size[0] = desc->width / desc->step > 2 ? desc->width / desc->step : 2;
+    size[1] = desc->height / desc->step > 2 ? desc->height / desc->step : 2;
+}
+
+static double processor_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+// Draws twice: drivers compile at the first draw, and the second tells what it takes.
+static trl_result draw_mesh(struct checker *c, const struct gpu_target *target)
+{
+    struct mesher *mesher = c->desc->mesher;
+    trl_result result = mesher_update(mesher, c->desc->truth.camera);
+    if (result == TRL_OK) {
+        result = mesher_draw(mesher, target);
+    }
+    if (result == TRL_OK) {
+        gpu_wait(c->desc->gpu);
+        const double begun = processor_ms();
+        result = mesher_update(mesher, c->desc->truth.camera);
+        if (result == TRL_OK) {
+            result = mesher_draw(mesher, target);
+        }
+        gpu_wait(c->desc->gpu);
+        c->check->error.cpu_ms = processor_ms() - begun;
+    }
+    return result;
+}
+
+struct canvas {
+    struct gpu_texture position, depth;
+    struct gpu_target target;
+};
+
+static void canvas_finish(struct canvas *canvas)
+{
+    gpu_target_finish(&canvas->target);
+    gpu_texture_finish(&canvas->position);
+    gpu_texture_finish(&canvas->depth);
+}
+
+static trl_result canvas_init(struct gpu *gpu, uint32_t width, uint32_t height, struct canvas *out)
+{
+    *out = (struct canvas){0};
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "mesh check";
+    desc.width = width;
+    desc.height = height;
+    desc.filter = GPU_FILTER_NEAREST;
+    desc.format = GPU_FORMAT_RGBA32F;
+    trl_result result = gpu_texture_init(gpu, &desc, &out->position);
+    if (result == TRL_OK) {
+        desc.format = GPU_FORMAT_DEPTH32F;
+        result = gpu_texture_init(gpu, &desc, &out->depth);
+    }
+    const struct gpu_target_desc target = {.label = "mesh check",
+                                           .color_count = 1,
+                                           .colors = {{.texture = &out->position}},
+                                           .depth = {.texture = &out->depth}};
+    return result == TRL_OK ? gpu_target_init(gpu, &target, &out->target) : result;
+}
+
+static trl_result draw(struct checker *c)
+{
+    struct canvas canvas;
+    trl_result result = canvas_init(c->desc->gpu, c->check->columns, c->fine_rows, &canvas);
+    if (result == TRL_OK) {
+        result = draw_mesh(c, &canvas.target);
+    }
+    if (result == TRL_OK) {
+        const struct gpu_region all = gpu_texture_region(&canvas.position, 0);
+        result = gpu_texture_read(&canvas.position, &all, c->drawn);
+    }
+    canvas_finish(&canvas);
+    return result;
+}
+
+// ---- the ground's shift
+
+struct point {
+    double x, y; // of the picture, -1 to 1
+};
+
+static struct point find_point(const struct mesh_check *check, uint32_t column, double row)
+{
+    return (struct point){(2 * column + 1.0) / check->columns - 1,
+                          (2 * row + 1.0) / check->rows - 1};
+}
+
+// Where the camera sees a position relative to it; false: behind it.
+static bool project(const struct camera *camera, struct vec3 at_m, struct point *out)
+{
+    const double z = vec3_dot(camera->forward, at_m);
+    out->x = vec3_dot(camera->right, at_m) / (z * camera->tan_half_fov_x);
+    out->y = vec3_dot(camera->up, at_m) / (z * camera->tan_half_fov_y);
+    return z > 0;
+}
+
+static double pixels_between(const struct mesh_check *check, struct point a, struct point b)
+{
+    return hypot((a.x - b.x) * check->camera.tan_half_fov_x,
+                 (a.y - b.y) * check->camera.tan_half_fov_y) /
+           check->pixel;
+}
+
+static const float *drawn_at(const struct checker *c, uint32_t column, uint32_t fine_row)
+{
+    return c->drawn + 4 * ((size_t)fine_row * c->check->columns + column);
+}
+
+static bool is_ground(const float *pixel)
+{
+    return pixel[3] > 0.5f * MESHER_NO_SURFACE;
+}
+
+static struct vec3 position_of(const float *pixel)
+{
+    return (struct vec3){(double)pixel[0], (double)pixel[1], (double)pixel[2]};
+}
+
+// What is drawn at a place of the picture belongs to a direction from the planet's centre. Returns
+// how far from there, in pixels, the truth shows the ground of that direction.
+static double check_place(const struct checker *c, uint32_t column, uint32_t row, float *place)
+{
+    const struct mesh_check *check = c->check;
+    const struct reference_surface *surface = c->desc->truth.surface;
+    const float *pixel = drawn_at(c, column, row * c->finer + c->finer / 2);
+    place[3] = NAN;
+    if (!is_ground(pixel)) {
+        return (double)NAN;
+    }
+    const struct vec3 drawn = vec3_add(check->camera.position_m, position_of(pixel));
+    const double radius = vec3_length(drawn);
+    const double altitude = surface->altitude_m(surface->user, drawn);
+    const struct vec3 truth = vec3_scale(drawn, (check->radius_m + altitude) / radius);
+    for (int i = 0; i < 3; i++) {
+        place[i] = pixel[i];
+    }
+    place[3] = (float)(radius - check->radius_m - altitude);
+    struct point seen;
+    const bool is_seen = project(&check->camera, vec3_sub(truth, check->camera.position_m), &seen);
+    return is_seen ? pixels_between(check, seen, find_point(check, column, row)) : (double)NAN;
+}
+
+static void check_places(struct checker *c)
+{
+    struct mesh_check *check = c->check;
+    double sum = 0, most = 0;
+    uint32_t count = 0;
+#pragma omp parallel for schedule(dynamic) reduction(+ : sum, count) reduction(max : most)
+    for (uint32_t row = 0; row < check->rows; row++) {
+        for (uint32_t column = 0; column < check->columns; column++) {
+            const size_t i = (size_t)row * check->columns + column;
+            const double shift = check_place(c, column, row, check->places + 4 * i);
+            if (!isnan(shift)) {
+                sum += shift * shift;
+                most = fmax(most, shift);
+                count++;
+            }
+        }
+    }
+    check->error.places = count;
+    check->error.shift_rms = count > 0 ? sqrt(sum / count) : 0;
+    check->error.shift_max = most;
+}
+
+// ---- holes
+
+static bool has_ground(const struct checker *c, uint32_t column, uint32_t row)
+{
+    return isfinite(c->hits[(size_t)row * c->check->columns + column].distance_m);
+}
+
+// Places whose eight neighbours are alike in truth, and that are drawn otherwise.
+static void count_holes(struct checker *c)
+{
+    struct mesh_check *check = c->check;
+    for (uint32_t row = 1; row + 1 < check->rows; row++) {
+        for (uint32_t column = 1; column + 1 < check->columns; column++) {
+            const bool truth = has_ground(c, column, row);
+            bool is_inside = true;
+            for (uint32_t k = 0; k < 9; k++) {
+                is_inside =
+                    is_inside && has_ground(c, column + k % 3 - 1, row + k / 3 - 1) == truth;
+            }
+            const bool drawn = is_ground(drawn_at(c, column, row * c->finer + c->finer / 2));
+            check->error.holes += is_inside && drawn != truth;
+        }
+    }
+}
+
+// ---- silhouettes
+
+// A silhouette in a column of the picture: it parts what is nearer than `parting_m` from the rest.
+struct edge {
+    double y; // pixels from the lower border
+    double parting_m;
+    bool is_near_below;
+};
+
+static double fine_pixel(const struct checker *c) // height of a row of `drawn`, in pixels
+{
+    return 2 * c->check->camera.tan_half_fov_y / c->check->pixel / c->fine_rows;
+}
+
+// Closes in on what parts two neighbouring places of a column; false when it is a slope.
+static bool find_edge(const struct checker *c, uint32_t column, uint32_t row, struct edge *out)
+{
+    const struct mesh_check *check = c->check;
+    const struct reference_hit *hit = &c->hits[(size_t)row * check->columns + column];
+    double m[2] = {hit->distance_m, hit[check->columns].distance_m};
+    const double low = fmin(m[0], m[1]), high = fmax(m[0], m[1]);
+    if (!(high > EDGE_RATIO * low) || isinf(low)) {
+        return false;
+    }
+    const double parting = isinf(high) ? (double)INFINITY : sqrt(low * high);
+    const bool is_near_below = m[0] < m[1];
+    double at[2] = {row, row + 1.0};
+    const double row_px = c->finer * fine_pixel(c);
+    while ((at[1] - at[0]) * row_px > EDGE_PRECISION) {
+        const double middle = 0.5 * (at[0] + at[1]);
+        const struct point p = find_point(check, column, middle);
+        const double distance = reference_caster_ray(&c->desc->truth, p.x, p.y);
+        const int side = (distance < parting) == is_near_below ? 0 : 1;
+        at[side] = middle;
+        m[side] = distance;
+    }
+    *out = (struct edge){(at[0] + at[1] + 1) / 2 * row_px, parting, is_near_below};
+    return fmax(m[0], m[1]) > SURE_EDGE_RATIO * fmin(m[0], m[1]);
+}
+
+static bool is_near(const struct checker *c, uint32_t column, uint32_t fine_row, double parting_m)
+{
+    const float *pixel = drawn_at(c, column, fine_row);
+    return is_ground(pixel) && (isinf(parting_m) || vec3_length(position_of(pixel)) < parting_m);
+}
+
+// How far the drawn silhouette of the same kind is along the column, in pixels; more than the most
+// that is looked for: there is none.
+static double find_drawn_edge(const struct checker *c, uint32_t column, const struct edge *edge)
+{
+    const double fine = fine_pixel(c);
+    const int64_t reach = (int64_t)(MESH_CHECK_MAX_EDGE / fine) + 1;
+    const int64_t middle = (int64_t)(edge->y / fine);
+    double nearest = (double)INFINITY;
+    for (int64_t r = middle - reach; r <= middle + reach; r++) {
+        if (r < 0 || r + 1 >= c->fine_rows) {
+            continue;
+        }
+        const bool below = is_near(c, column, (uint32_t)r, edge->parting_m);
+        const bool above = is_near(c, column, (uint32_t)r + 1, edge->parting_m);
+        if (below != above && below == edge->is_near_below) {
+            nearest = fmin(nearest, fabs((double)(r + 1) * fine - edge->y));
+        }
+    }
+    return nearest;
+}
+
+// The silhouette of the next column that continues one; NAN: none within the steepest slope.
+static double find_continued(const struct checker *c, uint32_t column, double y)
+{
+    const double reach = MAX_EDGE_SLOPE * c->desc->step;
+    double nearest = (double)NAN;
+    for (uint32_t row = 0; row + 1 < c->check->rows; row++) {
+        const double other = c->edges_y[(size_t)row * c->check->columns + column];
+        if (fabs(other - y) <= reach && !(fabs(other - y) > fabs(nearest - y))) {
+            nearest = other;
+        }
+    }
+    return nearest;
+}
+
+// Cosine of the silhouette's slope in the picture, from the columns beside it; 0: unknown.
+static double find_cosine(const struct checker *c, uint32_t column, double y)
+{
+    double slope = 0;
+    int count = 0;
+    for (int side = -1; side <= 1; side += 2) {
+        if ((side < 0 && column == 0) || (side > 0 && column + 1 == c->check->columns)) {
+            continue;
+        }
+        const double other = find_continued(c, (uint32_t)((int64_t)column + side), y);
+        if (!isnan(other)) {
+            slope += side * (other - y) / c->desc->step;
+            count++;
+        }
+    }
+    return count > 0 ? 1 / hypot(1, slope / count) : 0;
+}
+
+static void find_edges(struct checker *c)
+{
+    const struct mesh_check *check = c->check;
+#pragma omp parallel for schedule(dynamic)
+    for (uint32_t column = 0; column < check->columns; column++) {
+        for (uint32_t row = 0; row + 1 < check->rows; row++) {
+            const size_t i = (size_t)row * check->columns + column;
+            struct edge edge;
+            const bool is_edge = find_edge(c, column, row, &edge);
+            c->edges_y[i] = is_edge ? edge.y : (double)NAN;
+            c->edges_m[i] = (float)(is_edge ? edge.parting_m : 0);
+        }
+    }
+}
+
+static void check_edges(struct checker *c)
+{
+    struct mesh_check *check = c->check;
+    struct mesh_error *error = &check->error;
+    double sum = 0;
+    find_edges(c);
+    for (size_t i = 0; i < (size_t)check->columns * (check->rows - 1); i++) {
+        const uint32_t column = (uint32_t)(i % check->columns);
+        const double cosine = isnan(c->edges_y[i]) ? 0 : find_cosine(c, column, c->edges_y[i]);
+        if (!(cosine > 0)) {
+            continue;
+        }
+        const struct reference_hit *hit = &c->hits[i];
+        const struct edge edge = {c->edges_y[i], (double)c->edges_m[i],
+                                  hit->distance_m < hit[check->columns].distance_m};
+        const double along = find_drawn_edge(c, column, &edge);
+        const bool is_lost = along > MESH_CHECK_MAX_EDGE;
+        const double off = is_lost ? MESH_CHECK_MAX_EDGE : along * cosine;
+        error->lost_edges += is_lost;
+        error->edges++;
+        error->edge_max = fmax(error->edge_max, off);
+        sum += off * off;
+    }
+    error->edge_rms = error->edges > 0 ? sqrt(sum / error->edges) : 0;
+}
+
+// ---- all
+
+static void checker_finish(struct checker *c)
+{
+    const trl_context *ctx = c->desc->ctx;
+    mem_free(ctx, c->drawn);
+    mem_free(ctx, c->edges_y);
+    mem_free(ctx, c->edges_m);
+}
+
+static trl_result checker_init(const struct mesh_check_desc *desc, struct checker *c)
+{
+    const size_t count = (size_t)c->check->columns * c->check->rows;
+    c->finer = c->hits ? FINER : 1;
+    c->fine_rows = c->check->rows * c->finer;
+    c->drawn = mem_alloc(desc->ctx, count * c->finer, 4 * sizeof *c->drawn);
+    c->edges_y = mem_alloc(desc->ctx, count, sizeof *c->edges_y);
+    c->edges_m = mem_alloc(desc->ctx, count, sizeof *c->edges_m);
+    return c->drawn && c->edges_y && c->edges_m ? TRL_OK : TRL_ERROR_MEMORY;
+}
+
+trl_result mesh_check_init(const struct mesh_check_desc *desc, const struct reference_hit *hits,
+                           struct mesh_check *out)
+{
+    uint32_t size[2];
+    mesh_check_size(desc, size);
+    *out = (struct mesh_check){.ctx = desc->ctx,
+                               .camera = *desc->truth.camera,
+                               .radius_m = desc->truth.radius_m,
+                               .columns = size[0],
+                               .rows = size[1],
+                               .pixel = 2 * desc->truth.camera->tan_half_fov_y / desc->height};
+    out->places = mem_alloc(desc->ctx, (size_t)size[0] * size[1], 4 * sizeof *out->places);
+    struct checker c = {.desc = desc, .hits = hits, .check = out};
+    trl_result result = out->places ? checker_init(desc, &c) : TRL_ERROR_MEMORY;
+    if (result == TRL_OK) {
+        result = draw(&c);
+    }
+    if (result == TRL_OK) {
+        check_places(&c);
+    }
+    if (result == TRL_OK && hits) {
+        count_holes(&c);
+        check_edges(&c);
+    }
+    checker_finish(&c);
+    if (result != TRL_OK) {
+        mesh_check_finish(out);
+    }
+    return result;
+}
+
+void mesh_check_finish(struct mesh_check *check)
+{
+    if (check->ctx) {
+        mem_free(check->ctx, check->places);
+    }
+    *check = (struct mesh_check){0};
+}
