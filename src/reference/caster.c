@@ -15,7 +15,7 @@ static struct reference_way find_way(const struct reference_caster *caster, doub
 static double follow(const struct reference_caster *caster, const struct reference_way *way)
 {
     const double met = reference_surface_meet(caster->surface, caster->radius_m, way);
-    return met >= 0 ? met : INFINITY;
+    return met >= 0 ? met : HUGE_VAL;
 }
 
 double reference_caster_ray(const struct reference_caster *caster, double x, double y)
