@@ -55,8 +55,10 @@ TRL_API const char *trl_air_name(trl_air air);
 typedef enum trl_mesher {
     TRL_MESHER_HEMISPHERE, ///< "hemisphere": a grid that faces the camera, seen from the planet's
                            ///< centre (Michelic 2019)
-    TRL_MESHER_PROJECTIVE  ///< "projective": a grid of rays around the camera, laid on the planet
+    TRL_MESHER_PROJECTIVE, ///< "projective": a grid of rays around the camera, laid on the planet
                            ///< anew in every frame (planetary projective grid mapping)
+    TRL_MESHER_QUADTREE    ///< "quadtree": tiles that are split where the ground is near and rough
+                           ///< (Schafhitzel 2007)
 } trl_mesher;
 
 /// The word for it on the command line; NULL for what is none, as for the first number behind the

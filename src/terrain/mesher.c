@@ -12,6 +12,7 @@ struct kind {
 static const struct kind KINDS[MESHER_MAX_KINDS] = {
     [TRL_MESHER_HEMISPHERE] = {"hemisphere", hemisphere_create},
     [TRL_MESHER_PROJECTIVE] = {"projective", projective_create_default},
+    [TRL_MESHER_QUADTREE] = {"quadtree", quadtree_create},
 };
 
 const char *mesher_name(trl_mesher kind)

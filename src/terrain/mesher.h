@@ -32,6 +32,7 @@ struct mesher_ops {
 struct mesher {
     const struct mesher_ops *ops;
     struct mesher_stats stats;
+    double error_px; // wanted at most, for those that follow it; 0: their own
 };
 
 // NULL: there is no such mesher.
@@ -53,5 +54,6 @@ TRL_MUST_USE trl_result mesher_draw(struct mesher *mesher, const struct gpu_targ
 
 // Used by the above.
 TRL_MUST_USE trl_result hemisphere_create(const struct surface *surface, struct mesher **out);
+TRL_MUST_USE trl_result quadtree_create(const struct surface *surface, struct mesher **out);
 
 #endif // TERRAIN_MESHER_H
