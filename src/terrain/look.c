@@ -70,22 +70,20 @@ bool surface_picture(const struct surface *surface, enum surface_kind kind, stru
     return is_covered;
 }
 
-static bool is_within(const struct layer_frame *frame, const struct place *at, double reach_rad)
+static bool is_within(const struct layer_frame *frame, struct vec3 up, double reach_rad)
 {
-    const struct vec3 here = vec3_from_lat_lon(at->latitude, at->longitude);
-    const struct vec3 middle = vec3_from_lat_lon(frame->centre_latitude, frame->centre_longitude);
-    const double away = acos(fmax(-1, fmin(1, vec3_dot(here, middle))));
-    return away <= reach_rad + hypot(frame->half_width, frame->half_height);
+    return acos(fmax(-1, fmin(1, vec3_dot(up, frame->direction)))) <= reach_rad + frame->reach_rad;
 }
 
 double surface_half_texel_m(const struct surface *surface, struct vec3 direction, double reach_rad)
 {
     const struct place at = find_place(direction);
+    const struct vec3 up = vec3_normalize(direction);
     double finest = 2 * BARE_STEP;
     for (size_t i = 0; i < surface->counts[SURFACE_ELEVATION]; i++) {
         const struct layer_frame *frame = &surface->layers[SURFACE_ELEVATION][i].frame;
         if (layer_locate(frame, at.latitude, at.longitude).weight > 0 ||
-            (reach_rad > 0 && is_within(frame, &at, reach_rad))) {
+            (reach_rad > 0 && is_within(frame, up, reach_rad))) {
             finest = fmin(finest, frame->texel_height);
         }
     }
