@@ -95,7 +95,7 @@ typedef struct trl_renderer_desc {
     int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
     trl_air air;            ///< default TRL_AIR_MARCH
     trl_mesher mesher;      ///< default TRL_MESHER_HEMISPHERE
-    trl_projective_desc projective;    ///< of TRL_MESHER_PROJECTIVE; default 448 x 240, by relief
+    trl_projective_desc projective;    ///< of TRL_MESHER_PROJECTIVE; default 320 x 320, by relief
     const trl_rayleigh_desc *rayleigh; ///< for TRL_SKY_RAYLEIGH; copied; NULL (default): as the
                                        ///< scene asks
     bool measures_time; ///< each draw waits for the GPU and fills trl_renderer_timings; default

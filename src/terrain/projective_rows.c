@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { PROBE_COLUMNS = 64, RINGS = 512, BLOCK = 16 };
+enum { PROBE_COLUMNS = 32, RINGS = 256, BLOCK = 16 };
 _Static_assert(RINGS % BLOCK == 0, "projective_blocks.frag takes whole blocks");
 
 enum map { PROBES, HIGHEST, SEEN, WEIGHTS, ROWS };
@@ -16,8 +16,8 @@ _Static_assert((int)ROWS + 1 == (int)PROJECTIVE_MAPS, "a pass for each map");
 // Rings lie evenly within this part of the height above the ground.
 static const double EVEN_WITHIN = 0.5;
 // Rows: what follows the relief, what follows the picture; the rest is even over the rings.
-static const float CHORD_SHARE = 0.55f;
-static const float PIXEL_SHARE = 0.2f;
+static const float CHORD_SHARE = 0.7f;
+static const float PIXEL_SHARE = 0.1f;
 // zeta: rays below this part of the tangent meet the primary sphere only.
 static const float BLEND_START = 0.5f;
 
