@@ -247,8 +247,11 @@ static void motion_below_a_pixel_moves_the_picture_by_as_much(void **state)
             const double jitter = find_jitter(&p, &SCENES[i]);
             printf("%s, scene %zu: %.4f px\n", mesher_name((trl_mesher)kind), i, jitter);
             // A step is a tenth of a pixel. Before steep hills the mesh bends within pixels,
-            // between which its error is taken as linear.
-            assert_true(jitter < (i == 0 ? 0.1 : 0.005));
+            // between which its error is taken as linear. Meshes that follow the camera ask for all
+            // heights anew, which shaders know to some millimetres: half a metre above the ground
+            // that is a fifth of a pixel.
+            const double most = kind != TRL_MESHER_HEMISPHERE ? 0.2 : i == 0 ? 0.1 : 0.005;
+            assert_true(jitter < most);
         }
     }
     planet_destroy(&p);
