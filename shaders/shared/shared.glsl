@@ -13,6 +13,8 @@
 // words half, input, output, filter, common, active, this, template, sample; no two underscores in
 // a row; no macro over several lines. C calculates in double, GLSL in float.
 //
+// Whole numbers are of 32 bits without sign and wrap around; literals like 0x1fu.
+//
 // Functions that have one name in both: sqrt exp log pow sin cos tan asin acos floor. For the
 // others use the shared_ ones below.
 
@@ -25,12 +27,15 @@
 #define Area float      // m^2
 #define PerLength float // m^-1
 #define Angle float     // rad
+#define Whole uint      // modulo 2^32
 
 #define shared_abs abs
 #define shared_min min
 #define shared_max max
 #define shared_clamp clamp
 #define shared_atan2(y, x) atan(y, x)
+#define shared_whole(floored) uint(int(floored)) // |floored| < 2^31
+#define shared_number(whole) float(whole)
 
 // GLSL 330 knows no continued lines, not even where it skips them, and the formatter makes them.
 // clang-format off
@@ -44,6 +49,7 @@
 #else // C and C++
 
 #include <math.h>
+#include <stdint.h>
 
 #define SHARED_FN static inline
 // clang-format off
@@ -54,11 +60,14 @@ typedef double Length;    // m
 typedef double Area;      // m^2
 typedef double PerLength; // m^-1
 typedef double Angle;     // rad
+typedef uint32_t Whole;   // modulo 2^32
 
 #define shared_abs fabs
 #define shared_min fmin
 #define shared_max fmax
 #define shared_atan2(y, x) atan2(y, x)
+#define shared_whole(floored) ((uint32_t)(int64_t)(floored))
+#define shared_number(whole) ((double)(whole))
 static inline Number shared_clamp(Number value, Number low, Number high)
 {
     return fmin(fmax(value, low), high);

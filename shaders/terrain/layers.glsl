@@ -3,8 +3,15 @@
 // The rasters of the surface at a place, which is given as an offset from the anchor: `geo` is the
 // difference in longitude and latitude, in radians. Needs ELEVATION_COUNT, COLOUR_COUNT,
 // WATER_COUNT, LIGHTS_COUNT, NORMAL_COUNT (0 to 4); NO_FLOAT_LINEAR where 32F textures are not
-// filtered; HAS_POLAR where a layer is stereographic; HAS_MODES where one does more than cover. The
-// C side is src/terrain/bind.c.
+// filtered; HAS_POLAR where a layer is stereographic; HAS_MODES where one does more than cover;
+// HAS_NOISE where noise goes on below the layers, HAS_GROUND where it is the ground below them,
+// HAS_BIOMES where that has colours. The C side is src/terrain/bind.c.
+#ifdef HAS_BIOMES
+#define HAS_GROUND
+#endif
+#ifdef HAS_GROUND
+#define HAS_NOISE
+#endif
 #include "shared/blend.glsl"
 #include "shared/cubic.glsl"
 #include "shared/projection.glsl"
@@ -210,11 +217,10 @@ float layer_over_linear(float altitude, sampler2D heights, mat4 frame, float mod
 
 #define ELEVATION_FRAME(i) LAYER_FRAME(u_elevation, i)
 
-// Metres above the sphere, as all layers together say it.
-float terrain_altitude(vec2 geo, float log2_footprint)
+// Metres above the sphere, as all layers together say it, over what lies below them.
+float layers_altitude(float below, Ground g, float log2_footprint)
 {
-    float h = 0.0;
-    Ground g = ground_at(geo);
+    float h = below;
 #if ELEVATION_COUNT > 0
     h = layer_over_cubic(h, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x, g,
                          log2_footprint);
@@ -235,10 +241,9 @@ float terrain_altitude(vec2 geo, float log2_footprint)
 }
 
 // The same, cheaper: linear between texels.
-float terrain_altitude_linear(vec2 geo, float log2_footprint)
+float layers_altitude_linear(float below, Ground g, float log2_footprint)
 {
-    float h = 0.0;
-    Ground g = ground_at(geo);
+    float h = below;
 #if ELEVATION_COUNT > 0
     h = layer_over_linear(h, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x, g,
                           log2_footprint);
@@ -257,3 +262,20 @@ float terrain_altitude_linear(vec2 geo, float log2_footprint)
 #endif
     return h;
 }
+
+// Here, since a file counts once, also where it is left out.
+#include "terrain/slope.glsl"
+
+#ifdef HAS_NOISE
+#include "terrain/ground.glsl"
+#else
+float terrain_altitude(vec2 geo, float log2_footprint)
+{
+    return layers_altitude(0.0, ground_at(geo), log2_footprint);
+}
+
+float terrain_altitude_linear(vec2 geo, float log2_footprint)
+{
+    return layers_altitude_linear(0.0, ground_at(geo), log2_footprint);
+}
+#endif

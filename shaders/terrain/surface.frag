@@ -5,7 +5,8 @@
 // validate: ELEVATION_COUNT 0; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0
 // validate: ELEVATION_COUNT 4; COLOUR_COUNT 4; WATER_COUNT 4; LIGHTS_COUNT 4; NORMAL_COUNT 4
 // validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; NO_FLOAT_LINEAR
-// validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; HAS_DETAIL
+// validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; HAS_NOISE
+// validate: ELEVATION_COUNT 1; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_BIOMES
 // validate: ELEVATION_COUNT 3; COLOUR_COUNT 3; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_POLAR; HAS_MODES
 // validate: ELEVATION_COUNT 1; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; NORMAL_COUNT 1
 #ifndef NORMAL_COUNT
@@ -13,9 +14,6 @@
 #endif
 #include "terrain/layers.glsl"
 #include "terrain/shadow.glsl"
-#ifdef HAS_DETAIL
-#include "terrain/detail.glsl"
-#endif
 
 uniform highp sampler2D u_position;
 uniform mat3 u_local_from_planet; // at the camera's ground point, which is the anchor
@@ -108,83 +106,6 @@ float layer_over_mask(float below, sampler2D mask, mat4 frame, float mode, Groun
     return layer_blend(mode, below, textureLod(mask, at.xy, log2_footprint - frame[2].z).x, at.z);
 }
 
-// A pixel's place and the unit vectors east, north and up there, local frame.
-struct Tangent {
-    Ground ground;
-    float log2_footprint, cos_latitude;
-    vec3 east, north, up;
-};
-
-// Unit vectors along a map's x and y at a place, and half the map's scale there (stereographic).
-struct MapAxes {
-    vec3 x, y;
-    float half_scale;
-};
-
-// The stereographic map turns a vector e of its plane to e - (e . v) / (1 + a . v) (v + a), where v
-// is the place and a its pole.
-MapAxes layer_axes(mat4 frame, Tangent t)
-{
-    MapAxes axes = MapAxes(t.east, t.north, 0.5);
-#ifdef HAS_POLAR
-    vec4 turn = frame[3];
-    float pole = turn.z < 0.0 ? -1.0 : 1.0;
-    vec3 axis = pole * vec3(0.0, u_anchor.y, u_anchor.x);
-    vec3 outward = vec3(0.0, -u_anchor.x, u_anchor.y);
-    vec3 sum = (t.up + axis) / max(1.0 + dot(axis, t.up), 1.0e-4);
-    vec3 along = outward - dot(outward, t.up) * sum;
-    vec3 across = vec3(1.0, 0.0, 0.0) - t.up.x * sum;
-    if (turn.z != 0.0) {
-        axes.x = along * turn.x + across * turn.y;
-        axes.y = pole * (across * turn.x - along * turn.y);
-        axes.half_scale =
-            projection_stereographic_scale(u_anchor.x, t.ground.axis.up, pole) * abs(turn.z);
-    }
-#endif
-    return axes;
-}
-
-// The slope of a layer, as a tangent vector, laid over those below; w: log2 of a texel's height in
-// m. Steps are half a texel of the level that is seen, alike in metres: over a linear filter that
-// is the continuous slope of a quadratic spline. `height` is that of the layers so far.
-vec4 layer_over_slope(vec4 below, sampler2D heights, mat4 frame, float mode, Tangent t,
-                      inout float height)
-{
-    vec3 at = layer_locate(frame, t.ground);
-    float lod = max(t.log2_footprint - frame[2].z, 0.0);
-    float step_map = 0.5 * frame[2].y * exp2(lod);
-    float up = step_map;
-    float right = min(up / t.cos_latitude, 0.5 * LAYER_PI);
-    vec2 geo = t.ground.geo;
-    vec2 uv_up = layer_uv(frame, layer_map_round(frame, geo_over_pole(geo + vec2(0.0, up))));
-    vec2 uv_down = layer_uv(frame, layer_map_round(frame, geo_over_pole(geo - vec2(0.0, up))));
-    vec2 to_right = vec2(right * frame[0].z, 0.0);
-    vec2 steps = vec2(right * t.cos_latitude, up); // angles
-    MapAxes axes = layer_axes(frame, t);
-#ifdef HAS_POLAR
-    bool is_polar = frame[3].z != 0.0;
-    vec2 to_up = vec2(0.0, step_map * frame[0].w);
-    uv_up = is_polar ? at.xy - to_up : uv_up;
-    uv_down = is_polar ? at.xy + to_up : uv_down;
-    to_right = is_polar ? vec2(step_map * frame[0].z, 0.0) : to_right;
-    steps = is_polar ? vec2(step_map / (2.0 * axes.half_scale)) : steps;
-#endif
-    vec2 rise = vec2(layer_linear(heights, frame[1], at.xy + to_right, lod) -
-                         layer_linear(heights, frame[1], at.xy - to_right, lod),
-                     layer_linear(heights, frame[1], uv_up, lod) -
-                         layer_linear(heights, frame[1], uv_down, lod));
-    vec2 slope = rise / steps * (frame[2].x / (2.0 * u_anchor.w));
-    vec3 vector = slope.x * axes.x + slope.y * axes.y;
-#ifdef HAS_MODES
-    float value = frame[2].w + frame[2].x * layer_linear(heights, frame[1], at.xy, lod);
-    vector = vec3(blend_slope(mode, height, value, below.x, vector.x),
-                  blend_slope(mode, height, value, below.y, vector.y),
-                  blend_slope(mode, height, value, below.z, vector.z));
-    height = blend_layers(mode, height, value, at.z);
-#endif
-    return mix(below, vec4(vector, frame[2].z), at.z);
-}
-
 // A picture of normals: red to the map's right, green up, blue out of it, each -1 to 1.
 vec4 layer_over_normal(vec4 below, sampler2D normals, mat4 frame, float mode, Tangent t)
 {
@@ -197,26 +118,9 @@ vec4 layer_over_normal(vec4 below, sampler2D normals, mat4 frame, float mode, Ta
     return mix(below, vec4(vector, frame[2].z), at.z * c.w);
 }
 
-vec4 terrain_slope(Tangent t)
+// Of heights that lie as `slope`, with what pictures of normals say.
+vec4 terrain_slope(vec4 slope, Tangent t)
 {
-    vec4 slope = vec4(0.0, 0.0, 0.0, 30.0); // no data: larger than any planet
-    float height = 0.0;
-#if ELEVATION_COUNT > 0
-    slope =
-        layer_over_slope(slope, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x, t, height);
-#endif
-#if ELEVATION_COUNT > 1
-    slope =
-        layer_over_slope(slope, u_elevation1, ELEVATION_FRAME(1), u_elevation_modes.y, t, height);
-#endif
-#if ELEVATION_COUNT > 2
-    slope =
-        layer_over_slope(slope, u_elevation2, ELEVATION_FRAME(2), u_elevation_modes.z, t, height);
-#endif
-#if ELEVATION_COUNT > 3
-    slope =
-        layer_over_slope(slope, u_elevation3, ELEVATION_FRAME(3), u_elevation_modes.w, t, height);
-#endif
 #if NORMAL_COUNT > 0
     slope = layer_over_normal(slope, u_normal0, LAYER_FRAME(u_normal, 0), u_normal_modes.x, t);
 #endif
@@ -232,9 +136,9 @@ vec4 terrain_slope(Tangent t)
     return slope;
 }
 
-vec3 terrain_albedo(Ground g, float log2_footprint)
+vec3 terrain_albedo(vec3 below, Ground g, float log2_footprint)
 {
-    vec3 c = sqrt(u_default_albedo);
+    vec3 c = below;
 #if COLOUR_COUNT > 0
     c = layer_over_picture(c, u_colour0, LAYER_FRAME(u_colour, 0), u_colour_modes.x, g,
                            log2_footprint);
@@ -294,6 +198,8 @@ vec3 terrain_lights(Ground g, float log2_footprint)
     return c;
 }
 
+#include "terrain/look.glsl"
+
 void main()
 {
     vec4 p = texelFetch(u_position, ivec2(gl_FragCoord.xy), 0);
@@ -304,39 +210,22 @@ void main()
     // A pixel's width on the ground; seen at a slant it is longer, and the middle of both is taken.
     float slant = max(abs(dot(local, up)), 0.02 * distance_m) / max(distance_m, 1e-3);
     float log2_footprint = log2(max(distance_m * u_view.y, 1e-3)) - 0.5 * log2(slant);
-#ifdef NO_FLOAT_LINEAR
     // Levels fetched by hand must be one for 2 x 2 pixels: llvmpipe takes the first's for all.
     vec3 first = texelFetch(u_position, ivec2(gl_FragCoord.xy) & ~1, 0).xyz;
-    log2_footprint = log2(max(length(first) * u_view.y, 1e-3)) + 1.0;
+    float quad_footprint = log2(max(length(first) * u_view.y, 1e-3)) + 1.0;
+#ifdef NO_FLOAT_LINEAR
+    log2_footprint = quad_footprint;
 #endif
-    Ground ground = ground_at(geo);
-    Tangent tangent;
-    tangent.ground = ground;
-    tangent.log2_footprint = log2_footprint;
-    tangent.up = up;
-    vec3 east = cross(vec3(0.0, u_anchor.y, u_anchor.x), up);
-    tangent.cos_latitude = max(length(east), 1e-5);
-    tangent.east = east / tangent.cos_latitude;
-    tangent.north = cross(up, tangent.east);
-    vec4 slope = terrain_slope(tangent);
-    vec3 root = terrain_albedo(ground, log2_footprint);
-    float water = terrain_water(ground, log2_footprint);
-#ifdef HAS_DETAIL
-    // On the sphere and not on the mesh, whose vertices move with the camera.
-    vec4 noise = detail_noise(local - up * p.w, log2_footprint - 0.3 * log2(slant), slope.w);
-    // Plains are not quite plain, and water is.
-    float land = 1.0 - water;
-    float rough = land * detail_slope(length(slope.xyz), min(slope.w, 20.0));
-    slope.xyz += rough * (noise.xyz - up * dot(noise.xyz, up));
-    root = detail_albedo(root, land * noise.w, land * length(slope.xyz));
-#endif
-    vec3 normal = normalize(up - slope.xyz);
+    // 1 - cosine without cancellation.
+    vec3 at = vec3(up.xy, -dot(up.xy, up.xy) / (1.0 + up.z));
+    Tangent tangent = tangent_at(at, geo, log2_footprint);
+    Look look = find_look(tangent, LookPlace(at, quad_footprint, p.w));
 
     float is_ground = p.w > -1e8 ? 1.0 : 0.0;
-    o_albedo_water = is_ground * vec4(root, water);
+    o_albedo_water = is_ground * vec4(look.root, look.water);
     float sun = terrain_sun_visibility(p.xyz, p.w);
     // A row times a matrix: the transpose turns local axes back into the planet's.
-    o_normal_sun = is_ground * vec4(normal * u_local_from_planet, sun);
-    o_lights = is_ground * vec4(terrain_lights(ground, log2_footprint), 1.0);
-    o_region = is_ground * vec4(terrain_albedo(ground, max(log2_footprint, u_region)), 1.0);
+    o_normal_sun = is_ground * vec4(look.normal * u_local_from_planet, sun);
+    o_lights = is_ground * vec4(terrain_lights(tangent.ground, log2_footprint), 1.0);
+    o_region = is_ground * vec4(look.region, 1.0);
 }

@@ -41,8 +41,13 @@ static float divide(double reflected, double light)
 
 void daylight_ground_albedo(const struct medium *medium, float rgb[3])
 {
+    daylight_albedo(medium, &medium->ground_albedo, rgb);
+}
+
+void daylight_albedo(const struct medium *medium, const struct spectrum *albedo, float rgb[3])
+{
     const struct cie_rgb light = cie_rgb_of_xyz(integrate(medium, NULL));
-    const struct cie_rgb reflected = cie_rgb_of_xyz(integrate(medium, &medium->ground_albedo));
+    const struct cie_rgb reflected = cie_rgb_of_xyz(integrate(medium, albedo));
     rgb[0] = divide(reflected.r, light.r);
     rgb[1] = divide(reflected.g, light.g);
     rgb[2] = divide(reflected.b, light.b);

@@ -16,4 +16,7 @@ double daylight_meter_wall_cd_m2(const struct medium *medium);
 // The ground's albedo in linear sRGB, relative to white in the star's light; in [0, 1].
 void daylight_ground_albedo(const struct medium *medium, float rgb[3]);
 
+// The same of any albedo.
+void daylight_albedo(const struct medium *medium, const struct spectrum *albedo, float rgb[3]);
+
 #endif // FRAME_DAYLIGHT_H

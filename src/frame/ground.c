@@ -3,6 +3,7 @@
 #include "frame/ground.h"
 
 #include "frame/daylight.h"
+#include "frame/invention.h"
 #include "shared/blend.glsl"
 #include "terrain/projective.h"
 
@@ -53,9 +54,10 @@ void ground_describe(const struct trl_scene *scene,
     out->layer_count = scene->layer_count;
     out->layers = layers;
     out->exaggeration = scene->exaggeration;
-    out->detail = (struct detail_desc){scene->detail.roughness, scene->detail.albedo_variation,
-                                       scene->detail.smallest_m};
+    out->detail = (struct surface_detail){scene->detail.roughness, scene->detail.albedo_variation,
+                                          scene->detail.smallest_m};
     daylight_ground_albedo(&scene->medium, out->default_albedo);
+    invention_describe(scene, out);
 }
 
 static trl_result load_surface(struct gpu *gpu, const struct trl_scene *scene,

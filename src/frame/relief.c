@@ -90,7 +90,9 @@ static void look(const void *user, struct vec3 direction, struct reference_look 
         out->albedo_rgb[c] = (double)surface->default_albedo[c];
         out->glow_rgb[c] = 0;
     }
+    const bool has_biomes = surface_biomes(surface, direction, out->albedo_rgb);
     out->has_colour = surface_picture(surface, SURFACE_COLOUR, direction, out->albedo_rgb);
+    out->has_colour = out->has_colour || has_biomes;
     surface_picture(surface, SURFACE_LIGHTS, direction, out->glow_rgb);
 }
 

@@ -335,6 +335,15 @@ void gpu_program_set_vec4s(struct gpu_program *program, const char *name, const 
     }
 }
 
+void gpu_program_set_ivec4s(struct gpu_program *program, const char *name, const int32_t *values,
+                            size_t count)
+{
+    const GLint location = use_value(program, name);
+    if (location >= 0) {
+        glUniform4iv(location, clamp_count(program, name, count), values);
+    }
+}
+
 void gpu_program_set_texture(struct gpu_program *program, const char *name,
                              const struct gpu_texture *texture)
 {

@@ -62,6 +62,8 @@ void gpu_program_set_floats(struct gpu_program *program, const char *name, const
                             size_t count);
 void gpu_program_set_vec4s(struct gpu_program *program, const char *name, const float *values,
                            size_t count);
+void gpu_program_set_ivec4s(struct gpu_program *program, const char *name, const int32_t *values,
+                            size_t count);
 
 // Textures by the sampler's name, buffers by the block's name. Bound at each draw; they must be
 // alive then.

@@ -45,6 +45,10 @@ TRL_MUST_USE trl_result scene_read_rayleigh(const struct scene_node *root, trl_r
 TRL_MUST_USE trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *out);
 TRL_MUST_USE trl_result scene_read_views(const struct scene_node *root, struct trl_scene *out);
 
+// surface.noise, which may be missing; climate and biomes of surface, which may be too.
+TRL_MUST_USE trl_result scene_read_noise(const struct scene_node *node, struct scene_noise *out);
+TRL_MUST_USE trl_result scene_read_biomes(const struct scene_node *surface, struct trl_scene *out);
+
 // stars of the root; they may be missing.
 TRL_MUST_USE trl_result scene_read_stars(const struct scene_node *root, struct trl_scene *out);
 

@@ -150,10 +150,18 @@ trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *ou
     if (!surface.value) {
         return TRL_OK;
     }
-    trl_result result = scene_node_check_keys(
-        &surface, (const char *const[]){"layers", "exaggeration", "detail", NULL});
+    trl_result result =
+        scene_node_check_keys(&surface, (const char *const[]){"layers", "exaggeration", "detail",
+                                                              "noise", "climate", "biomes", NULL});
+    const struct scene_node noise = scene_node_member(&surface, "noise");
     const struct scene_node layers = scene_node_member(&surface, "layers");
     if (result == TRL_OK) {
+        result = scene_read_noise(&noise, &out->noise);
+    }
+    if (result == TRL_OK) {
+        result = scene_read_biomes(&surface, out);
+    }
+    if (result == TRL_OK && (layers.value || !noise.value)) {
         result = scene_node_check_array(&layers, SCENE_MAX_LAYERS, "a list of layers");
     }
     for (size_t i = 0; result == TRL_OK && i < json_array_size(layers.value); i++) {

@@ -180,6 +180,9 @@ void trl_scene_destroy(trl_scene **scene)
         mem_free(ctx, s->bodies[i].name);
         spectrum_finish(ctx, &s->bodies[i].geometric_albedo);
     }
+    for (size_t i = 0; i < s->biome_count; i++) {
+        spectrum_finish(ctx, &s->biomes[i].albedo);
+    }
     for (size_t i = 0; i < s->view_count; i++) {
         mem_free(ctx, s->view_names[i]);
     }

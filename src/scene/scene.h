@@ -49,6 +49,30 @@ struct scene_detail {
     double smallest_m; // shortest wavelength
 };
 
+// Ground made of noise, below all layers.
+struct scene_noise {
+    bool is_there;
+    int form; // enum noise_form
+    double seed, octaves, lacunarity, hurst;
+    double continents_m, height_m;   // wavelength; of ranges over plains
+    double mountains_m, amplitude_m; // wavelength; of the noise in ranges
+    double smallest_m, level_roughness, ocean_share;
+};
+
+enum { SCENE_BIOME_RANGES = 5, SCENE_MAX_BIOMES = 16 };
+struct scene_biome_range {
+    double low, high, feather;
+};
+struct scene_biome {
+    struct spectrum albedo; // owned
+    double variation;
+    // Of altitude in m, slope, latitude and temperature in degrees, moisture.
+    struct scene_biome_range ranges[SCENE_BIOME_RANGES];
+};
+struct scene_climate {
+    double equator_C, pole_C, lapse_C_per_km;
+};
+
 // A moon or another planet; views say where it is.
 struct scene_body {
     char *name; // owned
@@ -81,6 +105,10 @@ struct trl_scene {
     struct layer layers[SCENE_MAX_LAYERS];
     double exaggeration; // of all heights
     struct scene_detail detail;
+    struct scene_noise noise;
+    struct scene_climate climate;
+    size_t biome_count;
+    struct scene_biome biomes[SCENE_MAX_BIOMES];
     struct scene_stars stars;
     size_t body_count;
     struct scene_body bodies[SCENE_MAX_BODIES];

@@ -45,6 +45,9 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
     if (has_modes) {
         add_define(out, "HAS_MODES");
     }
+    if (noise_is_there(&surface->noise)) {
+        add_define(out, surface->is_invented ? "HAS_GROUND" : "HAS_NOISE"); // the last
+    }
 }
 
 static void describe_layer(const struct terrain_layer *layer, const struct anchor *anchor,
@@ -101,4 +104,5 @@ void surface_bind(const struct surface *surface, const struct surface_selection 
     for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
         bind_kind(&binding, (enum surface_kind)k, program);
     }
+    noise_bind(&surface->noise, anchor, program);
 }

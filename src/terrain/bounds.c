@@ -6,6 +6,7 @@
 
 #include "shared/blend.glsl"
 #include "shared/cubic.glsl"
+#include "terrain/make.h"
 
 #include <math.h>
 
@@ -169,11 +170,35 @@ static void lay_over(double mode, const struct surface_bounds *layer, struct sur
     }
 }
 
+// What the noise's map says, before layers are laid over it.
+static void start_with_ground(struct surface *s)
+{
+    for (int i = 0; i < CELLS && s->is_invented; i++) {
+        s->bounds[i] = make_bound_ground(s, i % COLUMNS, i / COLUMNS);
+    }
+}
+
+// After the layers. Water lies over all that is below the sea.
+static void add_octaves(struct surface *s)
+{
+    for (int i = 0; i < CELLS && noise_is_there(&s->noise); i++) {
+        struct surface_bounds *b = &s->bounds[i];
+        const struct noise_reach reach = make_bound_octaves(s, i % COLUMNS, i / COLUMNS);
+        b->min += (float)reach.down_m;
+        b->max += (float)reach.up_m;
+        b->min = s->noise.desc.has_sea ? fmaxf(b->min, 0) : b->min;
+        b->max = s->noise.desc.has_sea ? fmaxf(b->max, 0) : b->max;
+    }
+}
+
 trl_result surface_find_bounds(struct surface *s)
 {
     s->bounds = mem_alloc(s->ctx, CELLS, sizeof *s->bounds); // zeroed: sea level
     struct surface_bounds *cells = mem_alloc(s->ctx, CELLS, sizeof *cells);
     const trl_result result = s->bounds && cells ? TRL_OK : TRL_ERROR_MEMORY;
+    if (result == TRL_OK) {
+        start_with_ground(s);
+    }
     for (size_t k = 0; k < s->counts[SURFACE_ELEVATION] && result == TRL_OK; k++) {
         const struct terrain_layer *layer = &s->layers[SURFACE_ELEVATION][k];
         for (int i = 0; i < CELLS; i++) {
@@ -184,6 +209,9 @@ trl_result surface_find_bounds(struct surface *s)
             const struct surface_bounds wide = widen(cells, i % COLUMNS, i / COLUMNS);
             lay_over(layer->mode, &wide, &s->bounds[i]);
         }
+    }
+    if (result == TRL_OK) {
+        add_octaves(s);
     }
     for (int i = 0; i < CELLS && result == TRL_OK; i++) {
         s->min_altitude_m = fmin(s->min_altitude_m, (double)s->bounds[i].min);

@@ -95,6 +95,42 @@ static trl_result pyramid_init(const trl_context *ctx, const struct terrain_laye
     return TRL_OK;
 }
 
+// Of the steepest difference of neighbours, the cubic's slope is at most 3/2. Columns toward the
+// poles are narrow; there the ground is level enough.
+static double find_steepest(const struct terrain_layer *layer, double radius_m)
+{
+    const struct layer_frame *f = &layer->frame;
+    double steepest = 0;
+#pragma omp parallel for reduction(max : steepest)
+    for (uint32_t y = 0; y < f->height - 1; y++) {
+        const struct layer_geo geo = layer_geo_of(f, 0, y);
+        const double shrink = f->pole == 0 ? fmax(cos(geo.latitude), 0.05) : 0.5;
+        for (uint32_t x = 0; x + 1 < f->width; x++) {
+            const double here = layer_texel(layer, x, y);
+            const double across = fabs(layer_texel(layer, x + 1, y) - here);
+            const double along = fabs(layer_texel(layer, x, y + 1) - here);
+            steepest = fmax(steepest, across / (f->texel_width * shrink));
+            steepest = fmax(steepest, along / (f->texel_height * (f->pole == 0 ? 1 : 0.5)));
+        }
+    }
+    return 1.5 * steepest / radius_m;
+}
+
+// Of all layers, and of the feathers in which they give way to each other.
+static double find_steepest_ground(const struct surface *s)
+{
+    const double range = s->max_altitude_m - s->min_altitude_m;
+    double steepest = s->is_invented ? noise_find_steepest(&s->noise) : 0;
+    for (size_t i = 0; i < s->counts[SURFACE_ELEVATION]; i++) {
+        const struct terrain_layer *layer = &s->layers[SURFACE_ELEVATION][i];
+        const bool has_border = layer->frame.reach_rad < SHARED_PI;
+        const double feather = fmax(layer->frame.feather, layer->frame.texel_height) * s->radius_m;
+        steepest = fmax(steepest, find_steepest(layer, s->radius_m));
+        steepest += has_border ? 1.5 * range / feather : 0;
+    }
+    return steepest;
+}
+
 trl_result terrain_ceiling_init(const struct surface *surface, struct terrain_ceiling *out)
 {
     *out = (struct terrain_ceiling){.surface = surface};
@@ -103,6 +139,9 @@ trl_result terrain_ceiling_init(const struct surface *surface, struct terrain_ce
         result = pyramid_init(surface->ctx, &surface->layers[SURFACE_ELEVATION][i],
                               &out->pyramids[out->count]);
         out->count += result == TRL_OK;
+    }
+    if (result == TRL_OK && noise_is_there(&surface->noise)) {
+        out->steepest = find_steepest_ground(surface);
     }
     if (result != TRL_OK) {
         terrain_ceiling_finish(out);
@@ -222,9 +261,37 @@ static double highest_around(const struct ceiling_pyramid *pyramid, const struct
     return highest_of(pyramid, &place, texels);
 }
 
+// With noise: the surface's table of bounds, whose cells are large, or what the ground at the place
+// and its slopes allow.
+static double bound_noise(const struct terrain_ceiling *ceiling, struct vec3 up, double angle_rad)
+{
+    const struct surface *s = ceiling->surface;
+    const double widest = 0.2; // more cells than that are not worth looking at
+    if (angle_rad > widest) {
+        return surface_max_altitude(s);
+    }
+    const double table = (double)surface_bounds_around(s, up, angle_rad).max;
+    const double reach = angle_rad * s->radius_m;
+    struct noise_place place;
+    surface_find_place(s, up, &place);
+    const struct noise_rise rise = noise_find_rise(&s->noise, &place.ground, reach);
+    // Near the sea roughness changes within metres of altitude.
+    const double full = s->noise.desc.full_height_m;
+    if (full > 0 && fabs(place.ground.height_m) < full + ceiling->steepest * reach) {
+        return table;
+    }
+    place.octaves = rise.octaves;
+    const double here = noise_relief_at(&s->noise, &place).height;
+    const double slopes = here + ceiling->steepest * reach + rise.rise_m;
+    return fmin(table, s->noise.desc.has_sea ? fmax(slopes, 0) : slopes);
+}
+
 double terrain_ceiling_m(const struct terrain_ceiling *ceiling, struct vec3 direction,
                          double angle_rad)
 {
+    if (noise_is_there(&ceiling->surface->noise)) {
+        return bound_noise(ceiling, vec3_normalize(direction), angle_rad);
+    }
     const struct reach reach = find_reach(direction, angle_rad);
     double highest = 0; // where no layer is; layers are laid over it
     for (size_t i = 0; i < ceiling->count; i++) {

@@ -22,6 +22,7 @@ struct ceiling_pyramid {
 struct terrain_ceiling {
     const struct surface *surface;
     size_t count;
+    double steepest; // slope of the ground without noise, m per m; only where there is noise
     struct ceiling_pyramid pyramids[SURFACE_MAX_LAYERS];
 };
 

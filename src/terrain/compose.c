@@ -9,18 +9,20 @@
 // A layer that covers fewer pixels than this is left out.
 static const double LEAST_PIXELS = 3;
 
-static trl_result make_program(struct terrain_compose *compose, bool has_detail, size_t elevations)
+static trl_result make_program(struct terrain_compose *compose, bool has_noise, size_t elevations)
 {
+    const struct surface *surface = compose->surface;
     struct surface_defines defines;
-    surface_get_defines(compose->surface, elevations, &defines);
-    if (has_detail) {
-        defines.list[defines.count++] = "HAS_DETAIL";
+    surface_get_defines(surface, elevations, &defines);
+    defines.count -= noise_is_there(&surface->noise) && !has_noise ? 1 : 0; // it is the last
+    if (has_noise && surface->biomes.count > 0) {
+        defines.list[defines.count++] = "HAS_BIOMES";
     }
     const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
                                           .fragment = "terrain/surface.frag",
                                           .defines = defines.list,
                                           .define_count = defines.count};
-    return gpu_program_init(compose->gpu, &desc, &compose->programs[has_detail][elevations]);
+    return gpu_program_init(compose->gpu, &desc, &compose->programs[has_noise][elevations]);
 }
 
 trl_result terrain_compose_init(const struct surface *surface, struct terrain_compose *out)
@@ -29,8 +31,8 @@ trl_result terrain_compose_init(const struct surface *surface, struct terrain_co
     trl_result result = TRL_OK;
     for (size_t i = 0; i <= surface_count_seen(surface, SURFACE_ELEVATION) && result == TRL_OK;
          i++) {
-        result = make_program(out, false, i);
-        if (result == TRL_OK && surface->detail.size_count > 0) {
+        result = surface->is_invented ? TRL_OK : make_program(out, false, i);
+        if (result == TRL_OK && noise_is_there(&surface->noise)) {
             result = make_program(out, true, i);
         }
     }
@@ -65,19 +67,18 @@ trl_result terrain_compose_draw(struct terrain_compose *compose,
     const double pixel_rad = 2 * in->camera->tan_half_fov_y / in->position->height;
     const double nearest_m =
         vec3_length(in->camera->position_m) - surface->radius_m - surface->max_altitude_m;
-    const bool has_detail = detail_is_seen(&surface->detail, nearest_m * pixel_rad);
+    const bool has_noise =
+        surface->is_invented || noise_is_seen(&surface->noise, nearest_m * pixel_rad);
     const struct surface_selection selection = select_layers(surface, in);
     struct gpu_program *program =
-        &compose->programs[has_detail][selection.counts[SURFACE_ELEVATION]];
+        &compose->programs[has_noise][selection.counts[SURFACE_ELEVATION]];
     const struct anchor anchor = anchor_below(in->camera->position_m);
     float local_from_planet[9];
     anchor_local_from_planet(&anchor, local_from_planet);
     const float view[4] = {(float)vec3_length(in->camera->position_m), (float)pixel_rad, 0, 0};
     surface_bind(surface, &selection, &anchor, program);
     terrain_shadow_bind(in->shadow, in->camera, program);
-    if (has_detail) {
-        detail_bind(&surface->detail, &anchor, in->camera->position_m, program);
-    }
+    biomes_bind(&surface->biomes, program);
     gpu_program_set_texture(program, "u_position", in->position);
     gpu_program_set_mat3(program, "u_local_from_planet", local_from_planet);
     gpu_program_set_vec4(program, "u_view", view);

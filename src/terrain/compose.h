@@ -11,7 +11,7 @@
 struct terrain_compose {
     struct gpu *gpu;
     const struct surface *surface;
-    // One for each number of elevation layers that are looked at, without detail and with: what is
+    // One for each number of elevation layers that are looked at, without noise and with: what is
     // out of sight costs nothing.
     struct gpu_program programs[2][SURFACE_SEEN_LAYERS + 1];
 };

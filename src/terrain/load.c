@@ -7,6 +7,7 @@
 #include "raster/remote.h"
 #include "shared/blend.glsl"
 #include "terrain/bounds.h"
+#include "terrain/make.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -46,7 +47,7 @@ static double fill_height(const void *user, double latitude, double longitude)
 {
     const struct below *below = user;
     const double altitude =
-        surface_altitude(below->surface, vec3_from_lat_lon(latitude, longitude));
+        surface_altitude_of_data(below->surface, vec3_from_lat_lon(latitude, longitude));
     return blend_neutral(below->mode, altitude);
 }
 
@@ -298,16 +299,6 @@ static trl_result load_layers(struct loader *loader)
     return TRL_OK;
 }
 
-// In north-south direction, on the sphere; of everything that has layers at all.
-static double find_coarsest_m(const struct surface *s)
-{
-    double coarsest = 0;
-    for (size_t i = 0; i < s->counts[SURFACE_ELEVATION]; i++) {
-        coarsest = fmax(coarsest, s->layers[SURFACE_ELEVATION][i].frame.texel_height);
-    }
-    return coarsest * s->radius_m;
-}
-
 static trl_result fill_surface(const struct surface_desc *desc, struct surface *out)
 {
     out->radius_m = desc->radius_m;
@@ -317,12 +308,15 @@ static trl_result fill_surface(const struct surface_desc *desc, struct surface *
     struct loader loader = {.desc = desc, .surface = out, .quiet = *out->ctx};
     loader.quiet.desc.log = listen;
     loader.quiet.desc.log_user = &loader;
-    trl_result result = load_layers(&loader);
+    trl_result result = make_ground(desc, out);
+    if (result == TRL_OK) {
+        result = load_layers(&loader);
+    }
+    if (result == TRL_OK) {
+        result = make_detail(desc, out);
+    }
     if (result == TRL_OK) {
         result = surface_find_bounds(out);
-    }
-    if (result == TRL_OK && out->gpu) {
-        result = detail_init(out->gpu, &desc->detail, find_coarsest_m(out), &out->detail);
     }
     for (size_t i = 0; i < SURFACE_MAX_LAYERS; i++) {
         mem_free(out->ctx, loader.masks[i]);
@@ -353,7 +347,7 @@ void surface_finish(struct surface *surface)
             layer_finish(&surface->layers[k][i]);
         }
     }
-    detail_finish(&surface->detail);
+    noise_finish(&surface->noise);
     if (surface->ctx) {
         mem_free(surface->ctx, surface->bounds);
     }

@@ -10,6 +10,8 @@
 // cubic is nearly a parabola.
 static const double SLOPE_STEP = 0.25;
 static const double BARE_STEP = 0.01;
+// Of made-up relief.
+static const double LEAST_STEP_M = 2;
 
 struct place {
     double latitude, longitude;
@@ -87,12 +89,51 @@ double surface_half_texel_m(const struct surface *surface, struct vec3 direction
             finest = fmin(finest, frame->texel_height);
         }
     }
-    return 0.5 * finest * surface->radius_m;
+    finest *= surface->radius_m;
+    if (noise_is_there(&surface->noise)) {
+        finest = fmin(finest, fmax(noise_shortest_m(&surface->noise), LEAST_STEP_M));
+    }
+    return 0.5 * finest;
+}
+
+// Of the relief with its octaves, by their gradients: what the GPU shades.
+static struct vec3 find_made_normal(const struct surface *surface, struct vec3 up)
+{
+    struct noise_place place;
+    const Relief r = surface_relief(surface, up, &place);
+    if (surface->noise.desc.has_sea && r.height < 0) {
+        return up;
+    }
+    const struct vec3 gradient = {r.x, r.y, r.z};
+    const struct vec3 slope = vec3_sub(gradient, vec3_scale(up, vec3_dot(gradient, up)));
+    return vec3_normalize(vec3_sub(up, slope));
+}
+
+bool surface_biomes(const struct surface *surface, struct vec3 direction, double rgb[3])
+{
+    if (!surface->is_invented || surface->biomes.count == 0) {
+        return false;
+    }
+    const struct vec3 up = vec3_normalize(direction);
+    struct noise_place place;
+    const Relief r = surface_relief(surface, up, &place);
+    const struct vec3 gradient = {r.x, r.y, r.z};
+    const struct vec3 slope = vec3_sub(gradient, vec3_scale(up, vec3_dot(gradient, up)));
+    const struct biome_place at = {.altitude_m = r.height,
+                                   .slope = vec3_length(slope),
+                                   .latitude_rad = asin(fmax(-1, fmin(1, up.z))),
+                                   .moisture = place.ground.climate,
+                                   .tone = r.tone};
+    biomes_colour(&surface->biomes, &at, rgb);
+    return true;
 }
 
 struct vec3 surface_normal(const struct surface *surface, struct vec3 direction)
 {
     const struct vec3 up = vec3_normalize(direction);
+    if (noise_is_there(&surface->noise)) {
+        return find_made_normal(surface, up);
+    }
     const struct vec3 axis = fabs(up.z) < 0.9 ? (struct vec3){0, 0, 1} : (struct vec3){1, 0, 0};
     const struct vec3 along[2] = {vec3_normalize(vec3_cross(axis, up)),
                                   vec3_cross(up, vec3_normalize(vec3_cross(axis, up)))};

@@ -12,6 +12,9 @@
 bool surface_picture(const struct surface *surface, enum surface_kind kind, struct vec3 direction,
                      double rgb[3]);
 
+// Linear sRGB of the biomes of invented ground over `rgb`. False if there are none.
+bool surface_biomes(const struct surface *surface, struct vec3 direction, double rgb[3]);
+
 // Unit normal of the composed heights.
 struct vec3 surface_normal(const struct surface *surface, struct vec3 direction);
 

@@ -10,6 +10,8 @@
 static const double THRESHOLD_OF_HEIGHT = 0.15;
 static const double MIN_THRESHOLD_M = 10;
 static const double NEAR_TEXELS = 3;
+// Noise goes on below; a grid that followed it would have nothing left for the distance.
+static const double NOISE_TEXEL_M = 400;
 static const double MAX_POWER = 4; // beyond, far rings lie too far apart
 
 double projection_lift(double distance_m, double ground_m, double peak_m)
@@ -44,6 +46,9 @@ static double find_texel(const struct surface *surface, const struct projection 
     for (size_t i = 0; i < seen.counts[SURFACE_ELEVATION]; i++) {
         const size_t index = seen.indices[SURFACE_ELEVATION][i];
         finest = fmin(finest, surface->layers[SURFACE_ELEVATION][index].frame.texel_height);
+    }
+    if (noise_is_there(&surface->noise)) {
+        finest = fmin(finest, NOISE_TEXEL_M / surface->radius_m);
     }
     return finest * surface->radius_m;
 }

@@ -3,12 +3,14 @@
 #include "terrain/surface.h"
 
 #include "shared/blend.glsl"
+#include "terrain/slope.h"
 
 #include <math.h>
 
-static double altitude_at(const struct surface *s, double latitude, double longitude)
+// Of the layers, over what lies below them.
+static double lay_over(const struct surface *s, double below, double latitude, double longitude)
 {
-    double altitude = 0;
+    double altitude = below;
     for (size_t i = 0; i < s->counts[SURFACE_ELEVATION]; i++) {
         const struct terrain_layer *layer = &s->layers[SURFACE_ELEVATION][i];
         const struct layer_place place = layer_locate(&layer->frame, latitude, longitude);
@@ -31,13 +33,46 @@ size_t surface_count_layers(const struct surface *surface)
 
 bool surface_has_layers(const struct surface *surface)
 {
-    return surface_count_layers(surface) > 0;
+    return surface_count_layers(surface) > 0 || surface->is_invented;
 }
 
-double surface_altitude(const struct surface *surface, struct vec3 direction)
+double surface_altitude_of_data(const struct surface *s, struct vec3 direction)
 {
-    return altitude_at(surface, atan2(direction.z, hypot(direction.x, direction.y)),
-                       atan2(direction.y, direction.x));
+    const double below =
+        s->is_invented ? noise_ground_at(&s->noise, vec3_normalize(direction)).height_m : 0;
+    return lay_over(s, below, atan2(direction.z, hypot(direction.x, direction.y)),
+                    atan2(direction.y, direction.x));
+}
+
+void surface_find_place(const struct surface *s, struct vec3 direction, struct noise_place *place)
+{
+    const double latitude = atan2(direction.z, hypot(direction.x, direction.y));
+    const double longitude = atan2(direction.y, direction.x);
+    const struct vec3 up = vec3_normalize(direction);
+    struct noise_ground ground = noise_ground_at(&s->noise, up);
+    struct slope slope = {ground.slope, ground.height_m, SLOPE_NO_DATA};
+    for (size_t i = 0; i < s->counts[SURFACE_ELEVATION]; i++) {
+        slope_lay_over(&s->layers[SURFACE_ELEVATION][i], up, s->radius_m, &slope);
+    }
+    ground.slope = slope.slope;
+    ground.height_m = lay_over(s, s->is_invented ? ground.height_m : 0, latitude, longitude);
+    *place = (struct noise_place){up, ground, slope.log2_texel, NOISE_ALL, NOISE_MAX_OCTAVES};
+}
+
+Relief surface_relief(const struct surface *s, struct vec3 direction, struct noise_place *place)
+{
+    surface_find_place(s, direction, place);
+    return noise_relief_at(&s->noise, place);
+}
+
+double surface_altitude(const struct surface *s, struct vec3 direction)
+{
+    if (!noise_is_there(&s->noise)) {
+        return surface_altitude_of_data(s, direction);
+    }
+    struct noise_place place;
+    const double altitude = surface_relief(s, direction, &place).height;
+    return s->noise.desc.has_sea ? fmax(altitude, 0) : altitude;
 }
 
 double surface_min_altitude(const struct surface *surface)

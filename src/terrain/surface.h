@@ -10,8 +10,10 @@
 // struct terrain_layer: nobody else sees how texels come to be there.)
 
 #include "terrain/anchor.h"
-#include "terrain/detail.h"
+#include "terrain/biomes.h"
+#include "terrain/continents.h"
 #include "terrain/layer.h"
+#include "terrain/noise.h"
 
 enum surface_kind {
     SURFACE_ELEVATION,
@@ -36,6 +38,13 @@ struct surface_layer_desc {
     double mode;        // of shared/blend.glsl; normals: over or add only
 };
 
+// Made-up relief and colour below the resolution of the data.
+struct surface_detail {
+    double roughness;        // relative to the data's; 1 is as natural
+    double albedo_variation; // standard deviation relative to the albedo, nearly
+    double smallest_m;       // its shortest wavelength, > 0
+};
+
 struct surface_desc {
     double radius_m; // of the reference sphere
     size_t layer_count;
@@ -43,7 +52,10 @@ struct surface_desc {
     float default_albedo[3];                 // linear sRGB, where no picture is
     double exaggeration;                     // of all heights, > 0
     bool is_strict;                          // a raster that is no good is an error, not left out
-    struct detail_desc detail;               // all 0: none
+    struct surface_detail detail;            // all 0: none
+    struct noise_desc noise;                 // octaves: 0: none
+    struct biomes biomes;                    // colours of invented ground
+    struct continents_desc continents;       // height_m > 0: the ground is the noise's own
     double max_bytes; // rasters that would need more are refused; see default
 };
 
@@ -64,7 +76,9 @@ struct surface {
     float default_albedo[3];
     size_t counts[SURFACE_KIND_COUNT];
     struct terrain_layer layers[SURFACE_KIND_COUNT][SURFACE_MAX_LAYERS];
-    struct detail detail;
+    struct terrain_noise noise;
+    struct biomes biomes;
+    bool is_invented;              // the noise's map is the ground below all layers
     struct surface_bounds *bounds; // owned; north row first, from 180 W
     double min_altitude_m, max_altitude_m;
 };
@@ -77,8 +91,8 @@ struct surface {
 TRL_MUST_USE trl_result surface_init(struct gpu *gpu, const struct surface_desc *desc,
                                      struct surface *out);
 
-// The same without a GPU: pictures are held on the CPU (look.h), there is no detail, and no pass
-// can be made for it. Never TRL_ERROR_GPU.
+// The same without a GPU: pictures are held on the CPU (look.h), and no pass can be made for it.
+// Never TRL_ERROR_GPU.
 TRL_MUST_USE trl_result surface_init_on_cpu(const trl_context *ctx, const struct surface_desc *desc,
                                             struct surface *out);
 
@@ -89,6 +103,18 @@ bool surface_has_layers(const struct surface *surface);
 
 // Metres above the reference sphere in a direction from the planet's centre (of any length but 0).
 double surface_altitude(const struct surface *surface, struct vec3 direction);
+
+// The same without noise that goes on below the data, as layers hold it.
+double surface_altitude_of_data(const struct surface *surface, struct vec3 direction);
+
+// What the octaves of the noise are added to there. Only where there is noise.
+void surface_find_place(const struct surface *surface, struct vec3 direction,
+                        struct noise_place *place);
+
+// Relief with noise there, before water, with its gradient along planet axes, and what it is made
+// of. Only where there is noise.
+Relief surface_relief(const struct surface *surface, struct vec3 direction,
+                      struct noise_place *place);
 
 // Bounds of all altitudes.
 double surface_min_altitude(const struct surface *surface);
@@ -121,7 +147,7 @@ struct surface_selection surface_select(const struct surface *surface,
 size_t surface_count_seen(const struct surface *surface, enum surface_kind kind);
 
 // "#define"s of the numbers of layers, for programs that include terrain/layers.glsl.
-enum { SURFACE_DEFINE_COUNT = 8, SURFACE_DEFINE_LENGTH = 48 };
+enum { SURFACE_DEFINE_COUNT = 9, SURFACE_DEFINE_LENGTH = 48 };
 struct surface_defines {
     char text[SURFACE_DEFINE_COUNT][SURFACE_DEFINE_LENGTH];
     const char *list[SURFACE_DEFINE_COUNT + 2]; // into text; two free for the caller

@@ -25,6 +25,18 @@ MIE_CONSTITUENT = {"profile": "uniform", "mie": MIE}
 # Where (keys and indices of the sample), what to put there, whether that is a scene.
 CHANGES = [
     ("", {}, False), ("", [], False),
+    ("surface noise", {}, True), ("surface", {"noise": {"seed": 5}}, True), ("surface", {}, False),
+    ("surface noise", {"seed": 1.5}, False), ("surface noise", {"seed": -1}, False),
+    ("surface noise", {"octaves": 41}, False), ("surface noise", {"form": "flat"}, False),
+    ("surface noise", {"form": "ridged", "ocean_share": 0.5, "hurst": 0.8, "lacunarity": 2.1}, True),
+    ("surface noise", {"height_m": 0}, False), ("surface noise", {"gain": 1}, False),
+    ("surface biomes", [], True), ("surface biomes", [{"name": "x"}], False),
+    ("surface biomes", [{"albedo": 0.3, "slope_deg": {"from": 30, "feather": 5}}], True),
+    ("surface biomes", [{"albedo": [[500, 0.3]], "latitude_deg": {"to": 91}}], False),
+    ("surface biomes", [{"albedo": 0.3, "moisture": {"feather": 0}}], False),
+    ("surface biomes", [{"albedo": 1.3}], False), ("surface biomes", [{"albedo": 0.3}] * 17, False),
+    ("surface climate", {"equator_C": 40, "pole_C": -60, "lapse_C_per_km": 5}, True),
+    ("surface climate", {"lapse_C_per_km": -1}, False),
     ("terrella", 2, False), ("terrella", REMOVED, False), ("terrella", True, False),
     ("name", REMOVED, True), ("name", "", False), ("name", 3, False),
     ("nmae", "x", False), ("comment", "x", True), ("comment", 1, False), ("$schema", "x", True),

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SHARED_RELIEF_GLSL
+#define SHARED_RELIEF_GLSL
+// Octaves of noise become relief: from the longest down, each knowing what those before it made.
+// Heights in m, gradients in m per m, along any axes. docs/physics.md, section 26.
+#include "shared/noise.glsl"
+
+// Mean square of the gradient of noise, per squared lattice unit.
+#define RELIEF_SLOPE2 3.0
+
+// Part of a gully's slope that smaller gullies follow.
+#define RELIEF_FORK 0.5
+
+// An octave's value within this, and what it is multiplied by.
+#define RELIEF_VALUE_BOUND 1.35
+#define RELIEF_WEIGHT_BOUND 2.0
+#define RELIEF_WEIGHT_LEAST 0.15
+
+SHARED_STRUCT(Relief)
+{
+    Number height;
+    Number x, y, z;                // its gradient
+    Number fall_x, fall_y, fall_z; // what gullies follow
+    // Values of the octaves before, fading by a half: over ridges above 0, in valleys below. And
+    // the gradient.
+    Number past, past_x, past_y, past_z;
+    Number tone;    // for colours: a sum of values
+    Number cutting; // of the slope that noise and gullies leave, for what is finer
+    Number unseen;  // variance of the slopes of octaves that the footprint hides
+};
+
+SHARED_FN Relief relief_of(Number height, Number x, Number y, Number z)
+{
+    Relief r;
+    r.height = height;
+    r.x = x;
+    r.y = y;
+    r.z = z;
+    r.fall_x = x;
+    r.fall_y = y;
+    r.fall_z = z;
+    r.past = 0.0;
+    r.past_x = 0.0;
+    r.past_y = 0.0;
+    r.past_z = 0.0;
+    r.tone = 0.0;
+    r.cutting = 1.0;
+    r.unseen = 0.0;
+    return r;
+}
+
+SHARED_FN Number relief_smooth(Number low, Number high, Number x)
+{
+    Number t = shared_clamp((x - low) / (high - low), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+// How much of an octave a footprint shows: none below two of its widths, all above four. Logarithms
+// to base 2 of lengths in m.
+SHARED_FN Number relief_seen(Number log2_wave, Number log2_footprint)
+{
+    return relief_smooth(1.0, 2.0, log2_wave - log2_footprint);
+}
+
+// Part of an octave in the tone: all from 250 m on, little of what is small.
+SHARED_FN Number relief_tone(Number log2_wave)
+{
+    return shared_clamp(0.2 + 0.1 * log2_wave, 0.15, 1.0);
+}
+
+// How much of an octave data lack: all from two texels down, none above four.
+SHARED_FN Number relief_lacking(Number log2_wave, Number log2_texel)
+{
+    return 1.0 - relief_smooth(1.0, 2.0, log2_wave - log2_texel);
+}
+
+// Amplitude by altitude: none at 0, all from `full` m on; full = 0: all everywhere.
+SHARED_FN Number relief_fullness(Number height, Number full)
+{
+    return full > 0.0 ? relief_smooth(0.0, 1.0, shared_abs(height) / full) : 1.0;
+}
+
+// Folded noise: a ridge where the noise is 0. Of the same deviation as the noise, and mean 0.
+SHARED_FN NoiseValue relief_fold(NoiseValue n, Number ridged)
+{
+    Number size = sqrt(n.value * n.value + 0.0012);
+    Number turn = (1.0 - ridged) - ridged * 1.6 * n.value / size;
+    NoiseValue v;
+    v.value = (1.0 - ridged) * n.value + ridged * 1.6 * (0.178 - size);
+    v.x = turn * n.x;
+    v.y = turn * n.y;
+    v.z = turn * n.z;
+    return v;
+}
+
+// Adds an octave of `size` m; `n` with its gradient per m. `contrast`: how much rougher ridges are
+// than valleys.
+SHARED_FN Relief relief_add(Relief r, NoiseValue v, Number size, Number contrast)
+{
+    // With a continuous derivative: gullies follow the gradient, and would break where it jumps.
+    Number t = shared_clamp(0.45 + 0.3 * contrast * r.past, 0.0, 1.0);
+    Number range = RELIEF_WEIGHT_BOUND - RELIEF_WEIGHT_LEAST;
+    Number weight = RELIEF_WEIGHT_LEAST + range * t * t * (3.0 - 2.0 * t);
+    Number rate = range * 6.0 * t * (1.0 - t) * 0.3 * contrast * v.value;
+    r.height += size * weight * v.value;
+    r.x += size * (weight * v.x + rate * r.past_x);
+    r.y += size * (weight * v.y + rate * r.past_y);
+    r.z += size * (weight * v.z + rate * r.past_z);
+    r.past = 0.5 * r.past + v.value;
+    r.past_x = 0.5 * r.past_x + v.x;
+    r.past_y = 0.5 * r.past_y + v.y;
+    r.past_z = 0.5 * r.past_z + v.z;
+    return r;
+}
+
+// What a slope lets water cut: nothing on level ground.
+SHARED_FN Number relief_cutting(Number slope2)
+{
+    return slope2 / (slope2 + 0.02);
+}
+
+// Adds an octave of gullies down the slope. They are cut: mean below 0, floors as sharp as crests.
+SHARED_FN Relief relief_cut(Relief r, NoiseValue v, Number size)
+{
+    r.height += size * v.value;
+    r.x += size * v.x;
+    r.y += size * v.y;
+    r.z += size * v.z;
+    r.fall_x += RELIEF_FORK * size * v.x;
+    r.fall_y += RELIEF_FORK * size * v.y;
+    r.fall_z += RELIEF_FORK * size * v.z;
+    r.past = 0.5 * r.past + 0.3 * v.value;
+    r.past_x = 0.5 * r.past_x + 0.3 * v.x;
+    r.past_y = 0.5 * r.past_y + 0.3 * v.y;
+    r.past_z = 0.5 * r.past_z + 0.3 * v.z;
+    return r;
+}
+
+#endif // SHARED_RELIEF_GLSL

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Heights of layers and noise together: part of terrain/layers.glsl.
+#include "terrain/noise.glsl"
+
+// The inverse of geo_from_local on the sphere; small offsets keep all their digits.
+vec3 ground_local(vec2 geo)
+{
+    vec2 versine = 2.0 * sin(0.5 * geo) * sin(0.5 * geo);
+    float cos_latitude = u_anchor.y * (1.0 - versine.y) - u_anchor.x * sin(geo.y);
+    return vec3(cos_latitude * sin(geo.x), sin(geo.y) + cos_latitude * u_anchor.x * versine.x,
+                -versine.y - cos_latitude * u_anchor.y * versine.x);
+}
+
+// `quad_footprint`: one for 2 x 2 pixels; `known_height`: of the data, where they are the ground.
+NoiseBase ground_base(Tangent t, float quad_footprint, float known_height)
+{
+    NoiseGround g = noise_ground(t.ground.geo, t.cos_latitude, quad_footprint);
+    vec4 below = vec4(g.slope.x * t.east + g.slope.y * t.north, SLOPE_NO_DATA);
+    vec4 slope = layers_slope(below, g.map.x, t);
+    NoiseBase b;
+#ifdef HAS_GROUND
+    b.height = layers_altitude(g.map.x, t.ground, quad_footprint);
+#else
+    b.height = known_height;
+#endif
+    b.slope = slope.xyz;
+    b.spread = g.spread.x * t.east + g.spread.y * t.north;
+    b.view = NoiseView(t.log2_footprint, slope.w, g.map.y, g.map.z);
+    b.climate = g.map.w;
+    return b;
+}
+
+float ground_altitude(Tangent t, vec3 at, float known_height)
+{
+    NoiseBase b = ground_base(t, t.log2_footprint, known_height);
+    return max(noise_compose(b, at * u_anchor.w, t.up).height, u_noise_form.w);
+}
+
+float terrain_altitude(vec2 geo, float log2_footprint)
+{
+    vec3 at = ground_local(geo);
+    Tangent t = tangent_at(at, geo, log2_footprint);
+#ifdef HAS_GROUND
+    return ground_altitude(t, at, 0.0);
+#else
+    return ground_altitude(t, at, layers_altitude(0.0, t.ground, log2_footprint));
+#endif
+}
+
+// The same, cheaper where it can be: linear between the texels of data.
+float terrain_altitude_linear(vec2 geo, float log2_footprint)
+{
+    vec3 at = ground_local(geo);
+    Tangent t = tangent_at(at, geo, log2_footprint);
+#ifdef HAS_GROUND
+    return ground_altitude(t, at, 0.0);
+#else
+    return ground_altitude(t, at, layers_altitude_linear(0.0, t.ground, log2_footprint));
+#endif
+}

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Colour, water and normal of the ground at a place: part of terrain/surface.frag.
+#ifdef HAS_BIOMES
+#include "terrain/biomes.glsl"
+#endif
+
+struct Look {
+    vec3 root; // square root of the albedo
+    float water;
+    vec3 normal; // local axes
+    vec3 region; // square root of the albedo of the region around
+};
+
+// The direction less the anchor's; log2 of a footprint that is one for 2 x 2 pixels; altitude in m.
+struct LookPlace {
+    vec3 at;
+    float quad_footprint, altitude;
+};
+
+#ifdef HAS_NOISE
+// Snow and soil slide off what is steeper than their angle of repose, and leave rock: greyer, and
+// no brighter than a fifth. Square roots.
+vec3 look_weathered(vec3 root, float tone, float slope)
+{
+    vec3 c = root * root;
+    float luminance = dot(c, vec3(0.2126, 0.7152, 0.0722));
+    vec3 rock = 0.8 * mix(c, vec3(luminance), 0.5) * min(1.0, 0.2 / max(luminance, 1e-3));
+    float snow = smoothstep(0.3, 0.6, luminance); // even, where it lies
+    c = mix(c, rock, smoothstep(0.6, 1.1, slope));
+    return sqrt(clamp(c * (1.0 + u_noise_more.z * (1.0 - 0.8 * snow) * tone), 0.0, 1.0));
+}
+
+// The part of a footprint that is below the level of the sea. Waves and shallows are the ocean's.
+float look_sea(float height, float slope2, float footprint)
+{
+    float shore = footprint * sqrt(slope2) + 0.1;
+    return clamp(0.5 - (height - u_noise_form.w) / shore, 0.0, 1.0);
+}
+
+Look find_look(Tangent t, LookPlace p)
+{
+    NoiseBase base = ground_base(t, p.quad_footprint, p.altitude);
+    Relief r = noise_compose(base, p.at * u_anchor.w, t.up);
+    vec3 slope = terrain_slope(vec4(r.x, r.y, r.z, base.view.texel), t).xyz;
+    slope -= t.up * dot(slope, t.up);
+    float steep = length(slope);
+    Look look;
+    look.water = terrain_water(t.ground, t.log2_footprint);
+    vec3 albedo = u_default_albedo;
+    vec3 region = u_default_albedo;
+#ifdef HAS_GROUND
+    float sea = look_sea(r.height, steep * steep + r.unseen, exp2(t.log2_footprint));
+    look.water = max(look.water, sea);
+#endif
+#ifdef HAS_BIOMES
+    BiomePlace place = biome_place(r.height, steep, u_anchor.z + t.ground.geo.y, base.climate);
+    region = biome_albedo(region, place);
+    place.tone = r.tone;
+    place.slope_spread = sqrt(r.unseen);
+    albedo = biome_albedo(albedo, place);
+#endif
+    look.root = terrain_albedo(sqrt(clamp(albedo, 0.0, 1.0)), t.ground, t.log2_footprint);
+    look.region =
+        terrain_albedo(sqrt(clamp(region, 0.0, 1.0)), t.ground, max(t.log2_footprint, u_region));
+#ifndef HAS_GROUND
+    float land = 1.0 - look.water;
+    look.root = look_weathered(look.root, land * r.tone, land * steep);
+#endif
+    look.normal = normalize(t.up - (1.0 - look.water) * slope);
+    return look;
+}
+#else
+Look find_look(Tangent t, LookPlace p)
+{
+    vec4 flat_ground = vec4(0.0, 0.0, 0.0, SLOPE_NO_DATA);
+    vec4 slope = terrain_slope(layers_slope(flat_ground, 0.0, t), t);
+    vec3 root = sqrt(u_default_albedo);
+    return Look(terrain_albedo(root, t.ground, t.log2_footprint),
+                terrain_water(t.ground, t.log2_footprint), normalize(t.up - slope.xyz),
+                terrain_albedo(root, t.ground, max(t.log2_footprint, u_region)));
+}
+#endif

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Relief made of noise, where it is the ground itself and where it is below the resolution of data.
+// The C side is src/terrain/noise.c; formulas are in shared/relief.glsl. Places are offsets from
+// the anchor's point of the reference sphere, local axes, m.
+#include "shared/cubic.glsl"
+#include "shared/relief.glsl"
+
+// The map: height in m, amplitude of the first octave in m, how ridged, climate.
+uniform highp sampler2D u_noise_map;
+// The anchor's column and row, as whole numbers and rests; texels to a radian, both ways.
+uniform ivec4 u_noise_map_base;
+uniform vec4 u_noise_map_place;
+// Of each octave: the anchor from the whole lattice point, 1 / wavelength in m; that point; log2 of
+// the wavelength in m, size relative to that of mountains, variance of its slopes and of
+// those below.
+uniform vec4 u_noise_place[24];
+uniform ivec4 u_noise_base[24];
+uniform vec4 u_noise_size[24];
+uniform vec4 u_noise_lattice[9]; // lattice axes, local, three for each third octave
+uniform ivec4 u_noise_ends;      // octaves of noise, of gullies after them, of noise after those
+uniform vec4 u_noise_form; // contrast, strength of gullies, altitude of full roughness, sea level
+uniform vec4 u_noise_more; // roughness on level ground; log2 of the map's texel in m; floor
+
+struct NoiseGround {
+    vec4 map;    // height, amplitude, ridged, climate
+    vec2 slope;  // of the height to the east and the north
+    vec2 spread; // of the amplitude
+};
+
+ivec2 noise_texel(ivec2 p, ivec2 size)
+{
+    bool is_over = p.y < 0 || p.y >= size.y;
+    p.y = p.y < 0 ? -1 - p.y : p.y >= size.y ? 2 * size.y - 1 - p.y : p.y;
+    p.x += is_over ? size.x / 2 : 0;
+    p.x -= p.x >= size.x ? size.x : 0;
+    p.x += p.x < 0 ? size.x : 0;
+    p.x -= p.x >= size.x ? size.x : 0;
+    return p;
+}
+
+// Smooth between texels, by the cubic.
+NoiseGround noise_ground_at(vec2 geo, float cos_latitude, int level)
+{
+    ivec2 whole = textureSize(u_noise_map, 0);
+    ivec2 size = max(whole >> level, ivec2(1));
+    float texels = exp2(float(level));
+    ivec2 base = u_noise_map_base.xy >> level;
+    vec2 rest = vec2(u_noise_map_base.xy - (base << level));
+    vec2 moved = u_noise_map_place.xy + vec2(geo.x, -geo.y) * u_noise_map_place.zw;
+    vec2 at = (rest + moved + 0.5) / texels - 0.5;
+    vec2 corner = floor(at);
+    vec2 f = at - corner;
+    ivec2 first = base + ivec2(corner) - 1;
+    first.x -= first.x >= size.x ? size.x : 0;
+    first.x += first.x < -3 ? size.x : 0;
+    vec4 rows[4];
+    vec2 slopes[4];
+    for (int j = 0; j < 4; j++) {
+        vec4 t[4];
+        for (int i = 0; i < 4; i++) {
+            t[i] = texelFetch(u_noise_map, noise_texel(first + ivec2(i, j), size), level);
+        }
+        for (int c = 0; c < 4; c++) {
+            rows[j][c] = cubic_blend(f.x, t[0][c], t[1][c], t[2][c], t[3][c]);
+        }
+        // Differences from one of them: a float has few digits of a kilometre.
+        for (int c = 0; c < 2; c++) {
+            slopes[j][c] =
+                cubic_slope(f.x, t[0][c] - t[1][c], 0.0, t[2][c] - t[1][c], t[3][c] - t[1][c]);
+        }
+    }
+    NoiseGround g;
+    for (int c = 0; c < 4; c++) {
+        g.map[c] = cubic_blend(f.y, rows[0][c], rows[1][c], rows[2][c], rows[3][c]);
+    }
+    vec2 east;
+    vec2 south;
+    for (int c = 0; c < 2; c++) {
+        east[c] = cubic_blend(f.y, slopes[0][c], slopes[1][c], slopes[2][c], slopes[3][c]);
+        south[c] = cubic_slope(f.y, rows[0][c] - rows[1][c], 0.0, rows[2][c] - rows[1][c],
+                               rows[3][c] - rows[1][c]);
+    }
+    vec2 per_metre = u_noise_map_place.zw / (texels * u_anchor.w);
+    east *= per_metre.x / max(cos_latitude, 1e-4);
+    south *= per_metre.y;
+    g.slope = vec2(east.x, -south.x);
+    g.spread = vec2(east.y, -south.y);
+    return g;
+}
+
+// `log2_footprint` must be one for 2 x 2 pixels: llvmpipe fetches one level for all of them.
+NoiseGround noise_ground(vec2 geo, float cos_latitude, float log2_footprint)
+{
+    float lod = max(log2_footprint - u_noise_more.y, 0.0);
+    int level = int(lod);
+    NoiseGround g = noise_ground_at(geo, cos_latitude, level);
+    float part = lod - float(level);
+    if (part > 0.0) {
+        NoiseGround h = noise_ground_at(geo, cos_latitude, level + 1);
+        g.map = mix(g.map, h.map, part);
+        g.slope = mix(g.slope, h.slope, part);
+        g.spread = mix(g.spread, h.spread, part);
+    }
+    return g;
+}
+
+// Lattice axes from local ones, times a vector; and back.
+vec3 noise_turn(int i, vec3 v)
+{
+    int row = 3 * (i % 3);
+    return vec3(dot(u_noise_lattice[row].xyz, v), dot(u_noise_lattice[row + 1].xyz, v),
+                dot(u_noise_lattice[row + 2].xyz, v));
+}
+
+vec3 noise_turn_back(int i, vec3 v)
+{
+    int row = 3 * (i % 3);
+    return u_noise_lattice[row].xyz * v.x + u_noise_lattice[row + 1].xyz * v.y +
+           u_noise_lattice[row + 2].xyz * v.z;
+}
+
+NoisePlace noise_place(int i, vec3 lattice)
+{
+    vec3 p = lattice * u_noise_place[i].w + u_noise_place[i].xyz;
+    return NoisePlace(p.x, p.y, p.z, uint(u_noise_base[i].x), uint(u_noise_base[i].y),
+                      uint(u_noise_base[i].z));
+}
+
+// With its gradient along local axes, per m.
+NoiseValue noise_local(NoiseValue n, int i)
+{
+    vec3 g = noise_turn_back(i, vec3(n.x, n.y, n.z)) * u_noise_place[i].w;
+    return NoiseValue(n.value, g.x, g.y, g.z);
+}
+
+// What octaves see: log2 of the footprint and of the data's texel; amplitude in m; how ridged.
+struct NoiseView {
+    float footprint, texel, amplitude, ridged;
+};
+
+float pow2(float x)
+{
+    return x * x;
+}
+
+// Of the whole octave; what is seen of it is apart.
+float noise_size(int i, NoiseView view)
+{
+    return view.amplitude * u_noise_size[i].y * relief_lacking(u_noise_size[i].x, view.texel);
+}
+
+bool noise_is_over(int i, int end, NoiseView view)
+{
+    return i >= end || u_noise_size[i].x - view.footprint < 1.0;
+}
+
+// The relief that is made on top of `r`. `up` is unit.
+Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
+{
+    int i = 0;
+    for (int part = 0; part < 2; part++) {
+        vec3 left = vec3(r.x, r.y, r.z);
+        left -= up * dot(left, up);
+        r.cutting = relief_cutting(dot(left, left));
+        for (; !noise_is_over(i, part == 0 ? u_noise_ends.x : u_noise_ends.z, view); i++) {
+            NoiseValue n = noise_local(noise_simplex(noise_place(i, noise_turn(i, at))), i);
+            float size = noise_size(i, view);
+            float seen = relief_seen(u_noise_size[i].x, view.footprint);
+            size *= part == 0 ? 1.0 : mix(u_noise_more.x, 1.0, r.cutting);
+            r = relief_add(r, relief_fold(n, view.ridged), size * seen, u_noise_form.x);
+            r.tone += size > 0.0 ? seen * relief_tone(u_noise_size[i].x) * n.value : 0.0;
+            r.unseen += RELIEF_SLOPE2 * pow2(size * u_noise_place[i].w) * (1.0 - seen * seen);
+        }
+        r.fall_x = r.x;
+        r.fall_y = r.y;
+        r.fall_z = r.z;
+        for (; part == 0 && !noise_is_over(i, u_noise_ends.y, view); i++) {
+            vec3 s = vec3(r.fall_x, r.fall_y, r.fall_z);
+            s -= up * dot(s, up);
+            float slope2 = dot(s, s);
+            vec3 along = cross(up, s) * inversesqrt(slope2 + 1e-12);
+            vec3 d = noise_turn(i, along);
+            NoiseValue n =
+                noise_local(noise_stripes(noise_place(i, noise_turn(i, at)), d.x, d.y, d.z), i);
+            float size = noise_size(i, view) * u_noise_form.y * relief_cutting(slope2);
+            float seen = relief_seen(u_noise_size[i].x, view.footprint);
+            r = relief_cut(r, n, size * seen);
+            r.unseen += RELIEF_SLOPE2 * pow2(size * u_noise_place[i].w) * (1.0 - seen * seen);
+        }
+    }
+    r.unseen +=
+        RELIEF_SLOPE2 * pow2(view.amplitude) * (i < u_noise_ends.z ? u_noise_size[i].z : 0.0);
+    return r;
+}
+
+// The ground without octaves as data and map together say it. Without data the texel is the map's.
+struct NoiseBase {
+    float height;
+    vec3 slope; // local axes
+    vec3 spread;
+    NoiseView view;
+    float climate;
+};
+
+// Everything: `base` with octaves, before water.
+Relief noise_compose(NoiseBase base, vec3 at, vec3 up)
+{
+    float amplitude = base.view.amplitude;
+    base.view.amplitude *= relief_fullness(base.height, u_noise_form.z);
+    Relief r = relief_of(base.height, base.slope.x, base.slope.y, base.slope.z);
+    r = noise_relief(r, at, up, base.view);
+    vec3 spread = base.spread * ((r.height - base.height) / max(amplitude, 1e-6));
+    r.x += spread.x;
+    r.y += spread.y;
+    r.z += spread.z;
+    return r;
+}

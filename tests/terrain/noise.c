@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Ground made of noise: the GPU's floats agree with the CPU's doubles anywhere and at any distance,
+// gradients are those of the heights, bounds hold, and footprints hide octaves without a step.
+#include "fixture.h"
+
+#include "gpu/pass.h"
+#include "terrain/ceiling.h"
+#include "terrain/look.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double DEGREE = 3.14159265358979323846 / 180;
+enum { PLACES = 64 };
+
+static struct surface_desc invent(enum noise_form form, double ocean_share)
+{
+    struct surface_desc desc = surface_desc_default();
+    desc.radius_m = 6e6;
+    desc.noise = (struct noise_desc){.seed = 3,
+                                     .form = form,
+                                     .octaves = 24,
+                                     .wavelength_m = 147000,
+                                     .mountain_m = 20000,
+                                     .gully_m = 10000,
+                                     .lacunarity = 2,
+                                     .hurst = 1,
+                                     .smallest_m = 0.2,
+                                     .level_roughness = 0.25,
+                                     .has_sea = ocean_share > 0};
+    desc.continents = (struct continents_desc){.seed = 3,
+                                               .radius_m = 6e6,
+                                               .wavelength_m = 6e6,
+                                               .height_m = 5000,
+                                               .amplitude_m = 2500,
+                                               .ocean_share = ocean_share,
+                                               .form = form};
+    return desc;
+}
+
+// Draws the heights of a surface at directions.
+struct asker {
+    struct fixture *fixture;
+    const struct surface *surface;
+    struct gpu_program program;
+    struct gpu_texture texture;
+    struct gpu_target target;
+};
+
+static void asker_init(struct fixture *f, const struct surface *s, struct asker *out)
+{
+    *out = (struct asker){.fixture = f, .surface = s};
+    struct surface_defines defines;
+    surface_get_defines(s, s->counts[SURFACE_ELEVATION], &defines);
+    const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+                                          .fragment = "heights.frag",
+                                          .defines = defines.list,
+                                          .define_count = defines.count};
+    assert_int_equal(gpu_program_init(f->gpu, &desc, &out->program), TRL_OK);
+    struct gpu_texture_desc texture = gpu_texture_desc_default();
+    texture.width = PLACES;
+    texture.format = GPU_FORMAT_RGBA32F;
+    texture.filter = GPU_FILTER_NEAREST;
+    assert_int_equal(gpu_texture_init(f->gpu, &texture, &out->texture), TRL_OK);
+    const struct gpu_target_desc target = {.color_count = 1,
+                                           .colors = {{.texture = &out->texture}}};
+    assert_int_equal(gpu_target_init(f->gpu, &target, &out->target), TRL_OK);
+}
+
+static void asker_finish(struct asker *a)
+{
+    gpu_target_finish(&a->target);
+    gpu_texture_finish(&a->texture);
+    gpu_program_finish(&a->program);
+}
+
+// Offsets from an anchor: what the shader is given, in float.
+struct question {
+    float offset[PLACES][4];
+    float answer[PLACES][4];
+};
+
+static void ask(struct asker *a, const struct anchor *anchor, struct question *q)
+{
+    const struct surface_eye eye = {.up = anchor->up, .reach_rad = 4};
+    const struct surface_selection seen = surface_select(a->surface, &eye);
+    surface_bind(a->surface, &seen, anchor, &a->program);
+    gpu_program_set_vec4s(&a->program, "u_offsets", q->offset[0], PLACES);
+    const struct gpu_pass pass = {.target = &a->target};
+    gpu_pass_begin(a->fixture->gpu, &pass);
+    assert_int_equal(gpu_draw_fullscreen(&a->program, "heights"), TRL_OK);
+    const struct gpu_region all = gpu_texture_region(&a->texture, 0);
+    assert_int_equal(gpu_texture_read(&a->texture, &all, q->answer[0]), TRL_OK);
+}
+
+// The direction that an offset in float stands for; z is off by what a float rounds, so it is made
+// from the others.
+static struct vec3 direction_of(const struct anchor *anchor, const float o[4])
+{
+    const double x = (double)o[0], y = (double)o[1];
+    return anchor_planet(anchor, (struct vec3){x, y, sqrt(1 - x * x - y * y)});
+}
+
+static void put_offset(float o[4], double angle, double heading, double log2_footprint)
+{
+    const double x = sin(angle) * sin(heading), y = sin(angle) * cos(heading);
+    o[0] = (float)x;
+    o[1] = (float)y;
+    o[2] = (float)(-(x * x + y * y) / (1 + sqrt(1 - x * x - y * y)));
+    o[3] = (float)log2_footprint;
+}
+
+static double altitude_with(const struct surface *s, struct vec3 up, double log2_footprint)
+{
+    struct noise_place place;
+    surface_relief(s, up, &place);
+    place.log2_footprint = log2_footprint;
+    const double altitude = noise_relief_at(&s->noise, &place).height;
+    return s->noise.desc.has_sea ? fmax(altitude, 0) : altitude;
+}
+
+static const double PLACES_DEG[][2] = {{12.3, 45.6},    {-33.3, -71}, {89.9999, 10}, {-90, 0},
+                                       {20, 179.99999}, {-47, -180},  {0, 0},        {89.5, -120}};
+
+// Around many anchors, from 1 cm away to 1000 km; footprints as a camera there would have them, a
+// thousandth of the distance, and at least nothing.
+static void check_agreement(struct fixture *f, const struct surface *s)
+{
+    struct asker asker;
+    asker_init(f, s, &asker);
+    for (size_t i = 0; i < sizeof PLACES_DEG / sizeof *PLACES_DEG; i++) {
+        const struct anchor anchor =
+            anchor_below(vec3_from_lat_lon(PLACES_DEG[i][0] * DEGREE, PLACES_DEG[i][1] * DEGREE));
+        struct question q;
+        for (int k = 0; k < PLACES; k++) {
+            const double distance_m = 0.01 * pow(1e8, k / (PLACES - 1.0));
+            // Distances of a few kilometres have pixels' footprints, the others no larger ones.
+            put_offset(q.offset[k], distance_m / s->radius_m, 2.4 * k, log2(1e-3 * distance_m));
+        }
+        ask(&asker, &anchor, &q);
+        for (int k = 0; k < PLACES; k++) {
+            const double distance_m = 0.01 * pow(1e8, k / (PLACES - 1.0));
+            const struct vec3 up = direction_of(&anchor, q.offset[k]);
+            const double wanted = altitude_with(s, up, (double)q.offset[k][3]);
+            // Arctangents of drivers are good to a few parts in a million, slopes are up to 2, and
+            // gullies turn with what is already off: three hundredths of the footprint. Of
+            // kilometres a float keeps 2e-4 m, at each of some twenty additions.
+            const double tolerance = 1e-2 + 3e-5 * distance_m;
+            if (!(fabs((double)q.answer[k][0] - wanted) <= tolerance)) {
+                fail_msg("%g N %g E, %g m away: GPU %.6f, CPU %.6f", PLACES_DEG[i][0],
+                         PLACES_DEG[i][1], distance_m, (double)q.answer[k][0], wanted);
+            }
+        }
+    }
+    asker_finish(&asker);
+}
+
+static void test_gpu_and_cpu_agree_on_invented_heights(void **state)
+{
+    struct fixture *f = *state;
+    for (int form = 0; form < NOISE_FORM_COUNT; form++) {
+        const struct surface_desc desc =
+            invent((enum noise_form)form, form == NOISE_PLAIN ? 0.6 : 0);
+        struct surface s;
+        assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
+        check_agreement(f, &s);
+        surface_finish(&s);
+    }
+}
+
+// Where the rest of the heights is: CPU queries that need no GPU.
+static struct vec3 some_place(int i)
+{
+    const double z = 2 * fmod(i * 0.61803398875, 1) - 1;
+    const double longitude = 2.39996323 * i;
+    return (struct vec3){sqrt(1 - z * z) * cos(longitude), sqrt(1 - z * z) * sin(longitude), z};
+}
+
+// The gradient against differences over 1 cm, tangential. Plain and ridged octaves are
+// differentiated exactly; gullies, and roughness by slope, count their direction and share as
+// constant.
+static void check_gradients(const struct surface *s, double mean_bound)
+{
+    double sum = 0, slopes = 0;
+    const int count = 400;
+    for (int i = 0; i < count; i++) {
+        const struct vec3 up = some_place(i + 1);
+        const struct vec3 along = vec3_normalize(vec3_cross(up, some_place(i + 7)));
+        const double step = 0.005 / s->radius_m;
+        const double low =
+            altitude_with(s, vec3_normalize(vec3_sub(up, vec3_scale(along, step))), -100);
+        const double high =
+            altitude_with(s, vec3_normalize(vec3_add(up, vec3_scale(along, step))), -100);
+        struct noise_place place;
+        const Relief r = surface_relief(s, up, &place);
+        sum += fabs((high - low) / 0.01 - vec3_dot((struct vec3){r.x, r.y, r.z}, along));
+        slopes += fabs((high - low) / 0.01);
+    }
+    if (!(sum <= mean_bound * slopes)) {
+        fail_msg("form %d: gradients are off by %.3f of the slopes", (int)s->noise.desc.form,
+                 sum / slopes);
+    }
+}
+
+static void test_gradients_are_those_of_the_heights(void **state)
+{
+    struct fixture *f = *state;
+    const double bounds[NOISE_FORM_COUNT] = {0.02, 0.02, 0.4};
+    for (int form = 0; form < NOISE_FORM_COUNT; form++) {
+        struct surface_desc desc = invent((enum noise_form)form, 0);
+        desc.noise.level_roughness = form == NOISE_ERODED ? 0.25 : 1;
+        struct surface s;
+        assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &s), TRL_OK);
+        check_gradients(&s, bounds[form]);
+        surface_finish(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_gpu_and_cpu_agree_on_invented_heights),
+        cmocka_unit_test(test_gradients_are_those_of_the_heights),
+    };
+    setenv("TRL_SHADER_DIR", TEST_SHADER_DIR, 1);
+    return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
+}
