@@ -221,6 +221,7 @@ static bool open_window(struct viewer *viewer, char message[VIEWER_MESSAGE_MAX])
 static void fly_scene(struct viewer *viewer)
 {
     trl_renderer_desc desc = trl_renderer_desc_default();
+    desc.waits_for_rasters = false;
     desc.scene = viewer->desc->scene;
     desc.gl = TRL_GL_CURRENT;
     desc.sky_model = viewer->desc->sky_model;

@@ -98,8 +98,12 @@ typedef struct trl_renderer_desc {
     trl_projective_desc projective;    ///< of TRL_MESHER_PROJECTIVE; default 320 x 320, by relief
     const trl_rayleigh_desc *rayleigh; ///< for TRL_SKY_RAYLEIGH; copied; NULL (default): as the
                                        ///< scene asks
-    bool measures_time; ///< each draw waits for the GPU and fills trl_renderer_timings; default
-                        ///< false
+    bool measures_time;     ///< each draw waits for the GPU and fills trl_renderer_timings; default
+                            ///< false
+    bool waits_for_rasters; ///< of rasters that are held in tiles (trl_context_desc.raster_mb):
+                            ///< each draw reads all that it shows (default). False: it draws
+                            ///< with what is there, coarser, while threads read on; see
+                            ///< trl_renderer_is_settled
 } trl_renderer_desc;
 
 /// A desc with every default set; the caller adds the scene. Threads: any.
@@ -227,9 +231,23 @@ TRL_API TRL_MUST_USE trl_result
 trl_renderer_change_atmosphere(trl_renderer *renderer, const trl_scene *scene,
                                const trl_constituent_change *changes, size_t count);
 
-/// Whether draws show the atmosphere last changed to, as fine as it gets. While it is false,
-/// drawing again can give a better picture.
+/// Whether draws show the atmosphere last changed to, as fine as it gets, and the last one all that
+/// its rasters have. While it is false, drawing again can give a better picture.
 TRL_API bool trl_renderer_is_settled(const trl_renderer *renderer);
+
+/// What has become of rasters that are held in tiles, since the renderer was made.
+typedef struct trl_tile_stats {
+    uint64_t rasters; ///< held in tiles; 0: all others are 0, too
+    uint64_t loaded;  ///< tiles read
+    uint64_t failed;  ///< tiles that could not be read: coarser ones stand in
+    uint64_t missing; ///< tiles that the last draw did without and are still to come
+    double held_mb;   ///< on both sides, those of coarse levels included
+    double most_mb;   ///< the most that the tiles in the CPU's memory ever were
+    double read_s;    ///< of all threads together, reading and unpacking
+} trl_tile_stats;
+
+/// @param[out] out  filled
+TRL_API void trl_renderer_tile_stats(const trl_renderer *renderer, trl_tile_stats *out);
 
 /// Finds the light of the air in another way from the next frame on, which compiles programs when
 /// it is the first of that kind.

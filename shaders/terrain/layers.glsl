@@ -4,8 +4,9 @@
 // difference in longitude and latitude, in radians. Needs ELEVATION_COUNT, COLOUR_COUNT,
 // WATER_COUNT, LIGHTS_COUNT, NORMAL_COUNT (0 to 4); NO_FLOAT_LINEAR where 32F textures are not
 // filtered; HAS_POLAR where a layer is stereographic; HAS_MODES where one does more than cover;
-// HAS_NOISE where noise goes on below the layers, HAS_GROUND where it is the ground below them,
-// HAS_BIOMES where that has colours. The C side is src/terrain/bind.c.
+// HAS_PAGES where one is held in tiles; HAS_NOISE where noise goes on below the layers, HAS_GROUND
+// where it is the ground below them, HAS_BIOMES where that has colours. The C side is
+// src/terrain/bind.c.
 #ifdef HAS_BIOMES
 #define HAS_GROUND
 #endif
@@ -15,20 +16,39 @@
 #include "shared/blend.glsl"
 #include "shared/cubic.glsl"
 #include "shared/projection.glsl"
+#ifdef HAS_PAGES
+#include "terrain/pages.glsl"
+#endif
 
 uniform vec4 u_anchor; // sine, cosine of its latitude, the latitude, the sphere's radius in m
 
-// Of each layer four vec4, the columns of a mat4:
+// Of each layer, in this order:
 //     place   map coordinates of the anchor less those of the raster's middle, and 1 / extent
 //     shape   how far it reaches from the middle (sideways, up, down; 9 is endless), 1 / feather
 //     texel   scale and offset (w) of what it holds, a texel's height on the map (y), log2 of that
 //             in m (z); heights are scale times what a texture holds plus the offset, in m
 //     turn    stereographic: sine, cosine of the anchor's longitude less the map's; the pole (1 or
 //             -1) times the ellipsoid's factor at the anchor; e^2. z is 0 for equirectangular ones.
-#define LAYER_FRAME(u, i) mat4(u[4 * i], u[4 * i + 1], u[4 * i + 2], u[4 * i + 3])
+//     paging  HAS_PAGES: see terrain/pages.glsl
+struct LayerFrame {
+    vec4 place, shape, texel, turn;
+#ifdef HAS_PAGES
+    vec4 paging;
+#endif
+};
+
+// clang-format off
+#ifdef HAS_PAGES
+const int LAYER_VECTORS = 5;
+#define LAYER_FRAME(u, i) LayerFrame(u[5*i], u[5*i + 1], u[5*i + 2], u[5*i + 3], u[5*i + 4])
+#else
+const int LAYER_VECTORS = 4;
+#define LAYER_FRAME(u, i) LayerFrame(u[4*i], u[4*i + 1], u[4*i + 2], u[4*i + 3])
+#endif
+// clang-format on
 
 #if ELEVATION_COUNT > 0
-uniform vec4 u_elevation[16];
+uniform vec4 u_elevation[4 * LAYER_VECTORS];
 uniform vec4 u_elevation_modes; // of shared/blend.glsl
 uniform sampler2D u_elevation0;
 #endif
@@ -82,38 +102,38 @@ Ground ground_at(vec2 geo)
 }
 
 // Map coordinates from the raster's middle, of equirectangular layers only and of any.
-vec2 layer_map_round(mat4 frame, vec2 geo)
+vec2 layer_map_round(LayerFrame frame, vec2 geo)
 {
-    float east = frame[0].x + geo.x;
+    float east = frame.place.x + geo.x;
     east -= 2.0 * LAYER_PI * floor(east / (2.0 * LAYER_PI) + 0.5);
-    return vec2(east, frame[0].y + geo.y);
+    return vec2(east, frame.place.y + geo.y);
 }
 
-vec2 layer_map(mat4 frame, Ground g)
+vec2 layer_map(LayerFrame frame, Ground g)
 {
     vec2 map = layer_map_round(frame, g.geo);
 #ifdef HAS_POLAR
-    vec4 turn = frame[3];
+    vec4 turn = frame.turn;
     float pole = turn.z < 0.0 ? -1.0 : 1.0;
     MapOffset m =
         projection_stereographic(g.axis, u_anchor.x, u_anchor.y, pole, turn.w, abs(turn.z));
     vec2 plane =
-        frame[0].xy + vec2(m.x * turn.x + m.y * turn.y, pole * (m.y * turn.x - m.x * turn.y));
+        frame.place.xy + vec2(m.x * turn.x + m.y * turn.y, pole * (m.y * turn.x - m.x * turn.y));
     map = turn.z != 0.0 ? plane : map;
 #endif
     return map;
 }
 
-vec2 layer_uv(mat4 frame, vec2 map)
+vec2 layer_uv(LayerFrame frame, vec2 map)
 {
-    return vec2(0.5 + map.x * frame[0].z, 0.5 - map.y * frame[0].w);
+    return vec2(0.5 + map.x * frame.place.z, 0.5 - map.y * frame.place.w);
 }
 
 // Texture coordinates (x, y) and the layer's weight (z).
-vec3 layer_locate(mat4 frame, Ground g)
+vec3 layer_locate(LayerFrame frame, Ground g)
 {
     vec2 map = layer_map(frame, g);
-    vec4 shape = frame[1];
+    vec4 shape = frame.shape;
     float inside = min(shape.x - abs(map.x), min(shape.y - map.y, shape.z + map.y));
     float t = clamp(inside * shape.w, 0.0, 1.0);
     return vec3(layer_uv(frame, map), t * t * (3.0 - 2.0 * t));
@@ -140,47 +160,90 @@ float layer_texel(sampler2D heights, vec4 shape, ivec2 p, int level)
     return texelFetch(heights, clamp(p, ivec2(0), size - 1), level).x;
 }
 
-float layer_cubic(sampler2D heights, vec4 shape, vec2 uv, int level)
+// A place on a level, as texels of the texture that holds it.
+struct LayerTexels {
+    vec2 at;   // (0, 0) is the first one's middle
+    int level; // of the texture
+    vec4 shape;
+};
+
+LayerTexels layer_texels(sampler2D heights, LayerFrame frame, vec2 uv, int level)
 {
-    vec2 at = uv * vec2(layer_size(heights, level)) - 0.5;
-    vec2 base = floor(at);
-    vec2 f = at - base;
+    LayerTexels t = LayerTexels(uv * vec2(layer_size(heights, level)) - 0.5, level, frame.shape);
+#ifdef HAS_PAGES
+    // Tiles have their neighbours' texels, so that nothing turns around or over a pole.
+    if (page_is_used(frame.paging)) {
+        vec2 place = vec2(frame.shape.x > 4.0 ? fract(uv.x) : uv.x, uv.y);
+        t = LayerTexels(page_texel(frame.paging, place, level) - 0.5, 0, vec4(0.0));
+    }
+#endif
+    return t;
+}
+
+float layer_cubic(sampler2D heights, LayerFrame frame, vec2 uv, int level)
+{
+    LayerTexels t = layer_texels(heights, frame, uv, level);
+    vec2 base = floor(t.at);
+    vec2 f = t.at - base;
     ivec2 corner = ivec2(base) - 1;
     float rows[4];
     for (int j = 0; j < 4; j++) {
-        rows[j] = cubic_blend(f.x, layer_texel(heights, shape, corner + ivec2(0, j), level),
-                              layer_texel(heights, shape, corner + ivec2(1, j), level),
-                              layer_texel(heights, shape, corner + ivec2(2, j), level),
-                              layer_texel(heights, shape, corner + ivec2(3, j), level));
+        rows[j] = cubic_blend(f.x, layer_texel(heights, t.shape, corner + ivec2(0, j), t.level),
+                              layer_texel(heights, t.shape, corner + ivec2(1, j), t.level),
+                              layer_texel(heights, t.shape, corner + ivec2(2, j), t.level),
+                              layer_texel(heights, t.shape, corner + ivec2(3, j), t.level));
     }
     return cubic_blend(f.y, rows[0], rows[1], rows[2], rows[3]);
 }
 
-#ifdef NO_FLOAT_LINEAR
-float layer_bilinear(sampler2D heights, vec4 shape, vec2 uv, int level)
+// What a filtered texture holds, between two levels of detail.
+#ifdef HAS_PAGES
+vec4 layer_fetch_level(sampler2D texels, LayerFrame frame, vec2 uv, int level)
 {
-    vec2 at = uv * vec2(layer_size(heights, level)) - 0.5;
-    vec2 base = floor(at);
+    bool is_paged = page_is_used(frame.paging);
+    vec2 place = vec2(frame.shape.x > 4.0 ? fract(uv.x) : uv.x, uv.y);
+    vec2 at = page_texel(frame.paging, place, level) / vec2(textureSize(texels, 0));
+    return textureLod(texels, is_paged ? at : uv, is_paged ? 0.0 : float(level));
+}
+
+vec4 layer_fetch(sampler2D texels, LayerFrame frame, vec2 uv, float lod)
+{
+    float level = floor(max(lod, 0.0));
+    return mix(layer_fetch_level(texels, frame, uv, int(level)),
+               layer_fetch_level(texels, frame, uv, int(level) + 1), max(lod, 0.0) - level);
+}
+#else
+vec4 layer_fetch(sampler2D texels, LayerFrame frame, vec2 uv, float lod)
+{
+    return textureLod(texels, uv, lod);
+}
+#endif
+
+#ifdef NO_FLOAT_LINEAR
+float layer_bilinear(sampler2D heights, LayerFrame frame, vec2 uv, int level)
+{
+    LayerTexels t = layer_texels(heights, frame, uv, level);
+    vec2 base = floor(t.at);
     ivec2 p = ivec2(base);
-    float a = layer_texel(heights, shape, p, level);
-    float b = layer_texel(heights, shape, p + ivec2(1, 0), level);
-    float c = layer_texel(heights, shape, p + ivec2(0, 1), level);
-    float d = layer_texel(heights, shape, p + ivec2(1, 1), level);
-    vec2 f = at - base;
+    float a = layer_texel(heights, t.shape, p, t.level);
+    float b = layer_texel(heights, t.shape, p + ivec2(1, 0), t.level);
+    float c = layer_texel(heights, t.shape, p + ivec2(0, 1), t.level);
+    float d = layer_texel(heights, t.shape, p + ivec2(1, 1), t.level);
+    vec2 f = t.at - base;
     return mix(mix(a, b, f.x), mix(c, d, f.x), f.y);
 }
 
-float layer_linear(sampler2D heights, vec4 shape, vec2 uv, float lod)
+float layer_linear(sampler2D heights, LayerFrame frame, vec2 uv, float lod)
 {
     float level = floor(max(lod, 0.0));
-    float low = layer_bilinear(heights, shape, uv, int(level));
-    float high = layer_bilinear(heights, shape, uv, int(level) + 1);
+    float low = layer_bilinear(heights, frame, uv, int(level));
+    float high = layer_bilinear(heights, frame, uv, int(level) + 1);
     return mix(low, high, max(lod, 0.0) - level);
 }
 #else
-float layer_linear(sampler2D heights, vec4 shape, vec2 uv, float lod)
+float layer_linear(sampler2D heights, LayerFrame frame, vec2 uv, float lod)
 {
-    return textureLod(heights, uv, lod).x;
+    return layer_fetch(heights, frame, uv, lod).x;
 }
 #endif
 
@@ -194,24 +257,24 @@ float layer_blend(float mode, float below, float value, float weight)
 }
 
 // Lays a layer over `altitude`, smooth where its texels are larger than the footprint.
-float layer_over_cubic(float altitude, sampler2D heights, mat4 frame, float mode, Ground g,
+float layer_over_cubic(float altitude, sampler2D heights, LayerFrame frame, float mode, Ground g,
                        float log2_footprint)
 {
     vec3 at = layer_locate(frame, g);
-    float lod = max(log2_footprint - frame[2].z, 0.0);
+    float lod = max(log2_footprint - frame.texel.z, 0.0);
     float level = floor(lod);
-    float low = layer_cubic(heights, frame[1], at.xy, int(level));
-    float high = layer_cubic(heights, frame[1], at.xy, int(level) + (lod > level ? 1 : 0));
-    float value = frame[2].w + frame[2].x * mix(low, high, lod - level);
+    float low = layer_cubic(heights, frame, at.xy, int(level));
+    float high = layer_cubic(heights, frame, at.xy, int(level) + (lod > level ? 1 : 0));
+    float value = frame.texel.w + frame.texel.x * mix(low, high, lod - level);
     return layer_blend(mode, altitude, value, at.z);
 }
 
-float layer_over_linear(float altitude, sampler2D heights, mat4 frame, float mode, Ground g,
+float layer_over_linear(float altitude, sampler2D heights, LayerFrame frame, float mode, Ground g,
                         float log2_footprint)
 {
     vec3 at = layer_locate(frame, g);
-    float lod = log2_footprint - frame[2].z;
-    float value = frame[2].w + frame[2].x * layer_linear(heights, frame[1], at.xy, lod);
+    float lod = log2_footprint - frame.texel.z;
+    float value = frame.texel.w + frame.texel.x * layer_linear(heights, frame, at.xy, lod);
     return layer_blend(mode, altitude, value, at.z);
 }
 

@@ -32,11 +32,11 @@ struct MapAxes {
 
 // The stereographic map turns a vector e of its plane to e - (e . v) / (1 + a . v) (v + a), where v
 // is the place and a its pole.
-MapAxes layer_axes(mat4 frame, Tangent t)
+MapAxes layer_axes(LayerFrame frame, Tangent t)
 {
     MapAxes axes = MapAxes(t.east, t.north, 0.5);
 #ifdef HAS_POLAR
-    vec4 turn = frame[3];
+    vec4 turn = frame.turn;
     float pole = turn.z < 0.0 ? -1.0 : 1.0;
     vec3 axis = pole * vec3(0.0, u_anchor.y, u_anchor.x);
     vec3 outward = vec3(0.0, -u_anchor.x, u_anchor.y);
@@ -56,42 +56,42 @@ MapAxes layer_axes(mat4 frame, Tangent t)
 // The slope of a layer, as a tangent vector, laid over those below; w: log2 of a texel's height in
 // m. Steps are half a texel of the level that is seen, alike in metres: over a linear filter that
 // is the continuous slope of a quadratic spline. `height` is that of the layers so far.
-vec4 layer_over_slope(vec4 below, sampler2D heights, mat4 frame, float mode, Tangent t,
+vec4 layer_over_slope(vec4 below, sampler2D heights, LayerFrame frame, float mode, Tangent t,
                       inout float height)
 {
     vec3 at = layer_locate(frame, t.ground);
-    float lod = max(t.log2_footprint - frame[2].z, 0.0);
-    float step_map = 0.5 * frame[2].y * exp2(lod);
+    float lod = max(t.log2_footprint - frame.texel.z, 0.0);
+    float step_map = 0.5 * frame.texel.y * exp2(lod);
     float up = step_map;
     float right = min(up / t.cos_latitude, 0.5 * LAYER_PI);
     vec2 geo = t.ground.geo;
     vec2 uv_up = layer_uv(frame, layer_map_round(frame, geo_over_pole(geo + vec2(0.0, up))));
     vec2 uv_down = layer_uv(frame, layer_map_round(frame, geo_over_pole(geo - vec2(0.0, up))));
-    vec2 to_right = vec2(right * frame[0].z, 0.0);
+    vec2 to_right = vec2(right * frame.place.z, 0.0);
     vec2 steps = vec2(right * t.cos_latitude, up); // angles
     MapAxes axes = layer_axes(frame, t);
 #ifdef HAS_POLAR
-    bool is_polar = frame[3].z != 0.0;
-    vec2 to_up = vec2(0.0, step_map * frame[0].w);
+    bool is_polar = frame.turn.z != 0.0;
+    vec2 to_up = vec2(0.0, step_map * frame.place.w);
     uv_up = is_polar ? at.xy - to_up : uv_up;
     uv_down = is_polar ? at.xy + to_up : uv_down;
-    to_right = is_polar ? vec2(step_map * frame[0].z, 0.0) : to_right;
+    to_right = is_polar ? vec2(step_map * frame.place.z, 0.0) : to_right;
     steps = is_polar ? vec2(step_map / (2.0 * axes.half_scale)) : steps;
 #endif
-    vec2 rise = vec2(layer_linear(heights, frame[1], at.xy + to_right, lod) -
-                         layer_linear(heights, frame[1], at.xy - to_right, lod),
-                     layer_linear(heights, frame[1], uv_up, lod) -
-                         layer_linear(heights, frame[1], uv_down, lod));
-    vec2 slope = rise / steps * (frame[2].x / (2.0 * u_anchor.w));
+    vec2 rise =
+        vec2(layer_linear(heights, frame, at.xy + to_right, lod) -
+                 layer_linear(heights, frame, at.xy - to_right, lod),
+             layer_linear(heights, frame, uv_up, lod) - layer_linear(heights, frame, uv_down, lod));
+    vec2 slope = rise / steps * (frame.texel.x / (2.0 * u_anchor.w));
     vec3 vector = slope.x * axes.x + slope.y * axes.y;
 #ifdef HAS_MODES
-    float value = frame[2].w + frame[2].x * layer_linear(heights, frame[1], at.xy, lod);
+    float value = frame.texel.w + frame.texel.x * layer_linear(heights, frame, at.xy, lod);
     vector = vec3(blend_slope(mode, height, value, below.x, vector.x),
                   blend_slope(mode, height, value, below.y, vector.y),
                   blend_slope(mode, height, value, below.z, vector.z));
     height = blend_layers(mode, height, value, at.z);
 #endif
-    return mix(below, vec4(vector, frame[2].z), at.z);
+    return mix(below, vec4(vector, frame.texel.z), at.z);
 }
 
 const float SLOPE_NO_DATA = 30.0; // log2 of a texel in m: larger than any planet

@@ -9,6 +9,7 @@
 // validate: ELEVATION_COUNT 1; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_BIOMES
 // validate: ELEVATION_COUNT 3; COLOUR_COUNT 3; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_POLAR; HAS_MODES
 // validate: ELEVATION_COUNT 1; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; NORMAL_COUNT 1
+// validate: ELEVATION_COUNT 2; COLOUR_COUNT 2; WATER_COUNT 1; LIGHTS_COUNT 1; HAS_PAGES
 #ifndef NORMAL_COUNT
 #define NORMAL_COUNT 0
 #endif
@@ -22,7 +23,7 @@ uniform vec3 u_default_albedo;
 uniform float u_region; // log2 of its width, m
 
 #if COLOUR_COUNT > 0
-uniform vec4 u_colour[16];
+uniform vec4 u_colour[4 * LAYER_VECTORS];
 uniform vec4 u_colour_modes;
 uniform sampler2D u_colour0;
 #endif
@@ -36,7 +37,7 @@ uniform sampler2D u_colour2;
 uniform sampler2D u_colour3;
 #endif
 #if WATER_COUNT > 0
-uniform vec4 u_water[16];
+uniform vec4 u_water[4 * LAYER_VECTORS];
 uniform vec4 u_water_modes;
 uniform sampler2D u_water0;
 #endif
@@ -50,7 +51,7 @@ uniform sampler2D u_water2;
 uniform sampler2D u_water3;
 #endif
 #if LIGHTS_COUNT > 0
-uniform vec4 u_lights[16];
+uniform vec4 u_lights[4 * LAYER_VECTORS];
 uniform vec4 u_lights_modes;
 uniform sampler2D u_lights0;
 #endif
@@ -64,7 +65,7 @@ uniform sampler2D u_lights2;
 uniform sampler2D u_lights3;
 #endif
 #if NORMAL_COUNT > 0
-uniform vec4 u_normal[16];
+uniform vec4 u_normal[4 * LAYER_VECTORS];
 uniform vec4 u_normal_modes;
 uniform sampler2D u_normal0;
 #endif
@@ -84,11 +85,11 @@ layout(location = 2) out vec4 o_lights;
 layout(location = 3) out vec4 o_region;
 
 // Colour (as square roots) over what lies below, by the layer's alpha.
-vec3 layer_over_picture(vec3 below, sampler2D picture, mat4 frame, float mode, Ground g,
+vec3 layer_over_picture(vec3 below, sampler2D picture, LayerFrame frame, float mode, Ground g,
                         float log2_footprint)
 {
     vec3 at = layer_locate(frame, g);
-    vec4 c = textureLod(picture, at.xy, log2_footprint - frame[2].z);
+    vec4 c = layer_fetch(picture, frame, at.xy, log2_footprint - frame.texel.z);
     vec3 value = c.xyz;
 #ifdef HAS_MODES
     bool adds = mode > 0.5 && mode < 1.5; // light, not its roots
@@ -99,23 +100,24 @@ vec3 layer_over_picture(vec3 below, sampler2D picture, mat4 frame, float mode, G
     return mix(below, value, c.w * at.z);
 }
 
-float layer_over_mask(float below, sampler2D mask, mat4 frame, float mode, Ground g,
+float layer_over_mask(float below, sampler2D mask, LayerFrame frame, float mode, Ground g,
                       float log2_footprint)
 {
     vec3 at = layer_locate(frame, g);
-    return layer_blend(mode, below, textureLod(mask, at.xy, log2_footprint - frame[2].z).x, at.z);
+    return layer_blend(mode, below,
+                       layer_fetch(mask, frame, at.xy, log2_footprint - frame.texel.z).x, at.z);
 }
 
 // A picture of normals: red to the map's right, green up, blue out of it, each -1 to 1.
-vec4 layer_over_normal(vec4 below, sampler2D normals, mat4 frame, float mode, Tangent t)
+vec4 layer_over_normal(vec4 below, sampler2D normals, LayerFrame frame, float mode, Tangent t)
 {
     vec3 at = layer_locate(frame, t.ground);
-    vec4 c = textureLod(normals, at.xy, t.log2_footprint - frame[2].z);
+    vec4 c = layer_fetch(normals, frame, at.xy, t.log2_footprint - frame.texel.z);
     vec3 n = 2.0 * c.xyz - 1.0;
     MapAxes axes = layer_axes(frame, t);
     vec3 vector = -(n.x * axes.x + n.y * axes.y) / max(n.z, 0.05);
     vector += mode > 0.5 ? below.xyz : vec3(0.0);
-    return mix(below, vec4(vector, frame[2].z), at.z * c.w);
+    return mix(below, vec4(vector, frame.texel.z), at.z * c.w);
 }
 
 // Of heights that lie as `slope`, with what pictures of normals say.

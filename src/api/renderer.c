@@ -6,6 +6,7 @@
 #include "scatter/atmosphere.h"
 #include "scatter/medium_edit.h"
 #include "terrain/projective.h"
+#include "terrain/stream.h"
 #include <terrella/renderer.h>
 
 #include <math.h>
@@ -20,7 +21,8 @@ trl_renderer_desc trl_renderer_desc_default(void)
                                .sky_model = TRL_SKY_MODEL_OF_SCENE,
                                .air = TRL_AIR_MARCH,
                                .mesher = TRL_MESHER_HEMISPHERE,
-                               .projective = projective_desc_default()};
+                               .projective = projective_desc_default(),
+                               .waits_for_rasters = true};
 }
 
 static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, trl_renderer **out)
@@ -41,7 +43,8 @@ static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, 
         .rayleigh = desc->rayleigh ? *desc->rayleigh : desc->scene->rayleigh,
         .air = desc->air,
         .meshing = {desc->mesher, desc->projective},
-        .measures_time = desc->measures_time};
+        .measures_time = desc->measures_time,
+        .waits_for_rasters = desc->waits_for_rasters};
     const trl_result result = frame_init(&frame, &renderer->frame);
     if (result != TRL_OK) {
         mem_free(ctx, renderer);
@@ -263,6 +266,26 @@ trl_result trl_renderer_change_atmosphere(trl_renderer *renderer, const trl_scen
 bool trl_renderer_is_settled(const trl_renderer *renderer)
 {
     return !renderer || frame_is_settled(&renderer->frame);
+}
+
+void trl_renderer_tile_stats(const trl_renderer *renderer, trl_tile_stats *out)
+{
+    if (!out) {
+        return;
+    }
+    *out = (trl_tile_stats){0};
+    const struct stream *stream = renderer ? renderer->frame.ground.surface.stream : NULL;
+    if (!stream) {
+        return;
+    }
+    const struct tile_cache_stats stats = tile_cache_stats(stream->cache);
+    *out = (trl_tile_stats){.rasters = stream->layer_count,
+                            .loaded = stats.loaded,
+                            .failed = stats.failed,
+                            .missing = stream->missing,
+                            .held_mb = stream_bytes(stream) / 1e6,
+                            .most_mb = (double)stats.most_bytes / 1e6,
+                            .read_s = stats.read_s};
 }
 
 const char *trl_air_name(trl_air air)

@@ -99,7 +99,8 @@ trl_result frame_change_atmosphere(struct frame *frame, const struct medium *med
 
 bool frame_is_settled(const struct frame *frame)
 {
-    return sky_is_settled(&frame->skies[frame->sky_model]);
+    return sky_is_settled(&frame->skies[frame->sky_model]) &&
+           surface_is_settled(&frame->ground.surface);
 }
 
 // What is beyond the air. A catalogue that may be missing is left out when it is.
@@ -141,7 +142,8 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
         result = open_gpu(desc, &out->gpu);
     }
     if (result == TRL_OK) {
-        result = ground_init(out->gpu, desc->scene, &desc->meshing, &out->ground);
+        const struct ground_desc ground = {desc->scene, desc->meshing, desc->waits_for_rasters};
+        result = ground_init(out->gpu, &ground, &out->ground);
     }
     if (result == TRL_OK) {
         result = frame_set_sky_model(out, desc->sky_model);

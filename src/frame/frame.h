@@ -36,6 +36,7 @@ struct frame_desc {
     struct ground_meshing meshing;
     trl_rayleigh_desc rayleigh; // checked
     bool measures_time;
+    bool waits_for_rasters;
 };
 
 struct frame {

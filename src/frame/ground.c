@@ -36,7 +36,7 @@ static double choose_mode(enum layer_blend blend)
     return MODES[blend];
 }
 
-void ground_describe(const struct trl_scene *scene,
+void ground_describe(const trl_context *ctx, const struct trl_scene *scene,
                      struct surface_layer_desc layers[SCENE_MAX_LAYERS], struct surface_desc *out)
 {
     for (size_t i = 0; i < scene->layer_count; i++) {
@@ -54,18 +54,20 @@ void ground_describe(const struct trl_scene *scene,
     out->layer_count = scene->layer_count;
     out->layers = layers;
     out->exaggeration = scene->exaggeration;
+    out->max_bytes = 1e6 * ctx->desc.raster_mb;
     out->detail = (struct surface_detail){scene->detail.roughness, scene->detail.albedo_variation,
                                           scene->detail.smallest_m};
     daylight_ground_albedo(&scene->medium, out->default_albedo);
     invention_describe(scene, out);
 }
 
-static trl_result load_surface(struct gpu *gpu, const struct trl_scene *scene,
+static trl_result load_surface(struct gpu *gpu, const struct ground_desc *ground,
                                struct surface *surface)
 {
     struct surface_layer_desc layers[SCENE_MAX_LAYERS];
     struct surface_desc desc;
-    ground_describe(scene, layers, &desc);
+    ground_describe(gpu->ctx, ground->scene, layers, &desc);
+    desc.waits = ground->waits_for_rasters;
     return surface_init(gpu, &desc, surface);
 }
 
@@ -127,15 +129,15 @@ double ground_find_lights_cd_m2(const struct trl_scene *scene)
     return brightest_cd_m2;
 }
 
-trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene,
-                       const struct ground_meshing *meshing, struct ground *out)
+trl_result ground_init(struct gpu *gpu, const struct ground_desc *desc, struct ground *out)
 {
+    const struct trl_scene *scene = desc->scene;
     *out = (struct ground){.gpu = gpu,
-                           .mesher = meshing->mesher,
-                           .projective = meshing->projective,
+                           .mesher = desc->meshing.mesher,
+                           .projective = desc->meshing.projective,
                            .lights_cd_m2 = ground_find_lights_cd_m2(scene),
                            .region_m = 2 * medium_scattering_height(&scene->medium)};
-    trl_result result = load_surface(gpu, scene, &out->surface);
+    trl_result result = load_surface(gpu, desc, &out->surface);
     out->is_bare = result == TRL_OK && !surface_has_layers(&out->surface);
     if (result == TRL_OK && !out->is_bare) {
         result = make_passes(out, scene->medium.star_angular_radius_rad);
@@ -236,9 +238,14 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
     if (ground->is_bare) {
         return TRL_OK;
     }
+    frame_clock_part(clock, "tiles");
+    const double pixel_rad = 2 * camera->tan_half_fov_y / ground->position.height;
+    trl_result result = surface_update(&ground->surface, camera, pixel_rad);
     frame_clock_part(clock, "vertices");
     struct mesher *mesher = ground->meshers[ground->mesher];
-    trl_result result = mesher_update(mesher, camera);
+    if (result == TRL_OK) {
+        result = mesher_update(mesher, camera);
+    }
     if (result == TRL_OK) {
         frame_clock_part(clock, "mesh");
         result = mesher_draw(mesher, &ground->mesh_target);

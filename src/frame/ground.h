@@ -37,7 +37,7 @@ struct ground {
 };
 
 // What the surface of a scene is made of; `layers` belongs to it.
-void ground_describe(const struct trl_scene *scene,
+void ground_describe(const trl_context *ctx, const struct trl_scene *scene,
                      struct surface_layer_desc layers[SCENE_MAX_LAYERS], struct surface_desc *out);
 
 // Luminance of white in the lights of a scene: that of the brightest layer.
@@ -48,8 +48,13 @@ struct ground_meshing {
     trl_projective_desc projective;
 };
 
-TRL_MUST_USE trl_result ground_init(struct gpu *gpu, const struct trl_scene *scene,
-                                    const struct ground_meshing *meshing, struct ground *out);
+struct ground_desc {
+    const struct trl_scene *scene; // needs to live only until the call returns
+    struct ground_meshing meshing;
+    bool waits_for_rasters; // see struct surface_desc
+};
+TRL_MUST_USE trl_result ground_init(struct gpu *gpu, const struct ground_desc *desc,
+                                    struct ground *out);
 void ground_finish(struct ground *ground);
 
 // Draws with that mesher from now on; makes it when it is asked for first. A failure leaves the old

@@ -22,7 +22,7 @@ static trl_result init(const trl_context *ctx, const struct trl_scene *scene, bo
     *out = (struct relief){.lights_cd_m2 = ground_find_lights_cd_m2(scene)};
     struct surface_layer_desc layers[SCENE_MAX_LAYERS];
     struct surface_desc desc;
-    ground_describe(scene, layers, &desc);
+    ground_describe(ctx, scene, layers, &desc);
     if (!has_pictures) {
         desc.layer_count = keep_heights(layers, desc.layer_count);
     }

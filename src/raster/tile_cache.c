@@ -538,7 +538,10 @@ enum tile_state tile_cache_want(struct tile_cache *cache, const struct tile_key 
 void tile_cache_hint(struct tile_cache *cache, const struct tile_key *key, float priority)
 {
     pthread_mutex_lock(&cache->lock);
-    (void)ask_for(cache, key, priority);
+    struct tile *tile = ask_for(cache, key, priority);
+    if (tile) {
+        touch_tile(cache, tile);
+    }
     pthread_mutex_unlock(&cache->lock);
 }
 

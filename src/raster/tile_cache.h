@@ -83,7 +83,8 @@ void tile_cache_begin(struct tile_cache *cache);
 enum tile_state tile_cache_want(struct tile_cache *cache, const struct tile_key *key,
                                 float priority, struct tile_view *view);
 
-// A later frame may use it: asked for, but not waited for, and not kept.
+// A later frame may use it, or somebody on the CPU: asked for, but not waited for, and dropped only
+// after what was used longer ago.
 void tile_cache_hint(struct tile_cache *cache, const struct tile_key *key, float priority);
 
 // Waits until nothing is left that the current frame wants, and tells progress.

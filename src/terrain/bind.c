@@ -4,6 +4,7 @@
 #include "terrain/surface.h"
 
 #include "shared/blend.glsl"
+#include "terrain/stream.h"
 
 #include <stdio.h>
 
@@ -11,7 +12,7 @@ static const char *const KIND_DEFINES[SURFACE_KIND_COUNT] = {
     "ELEVATION_COUNT", "COLOUR_COUNT", "WATER_COUNT", "LIGHTS_COUNT", "NORMAL_COUNT"};
 static const char *const KIND_UNIFORMS[SURFACE_KIND_COUNT] = {"u_elevation", "u_colour", "u_water",
                                                               "u_lights", "u_normal"};
-enum { FRAME_ROWS = 4 }; // vec4 of a layer
+enum { FRAME_ROWS = 5 }; // vec4 of a layer; the last one only where there are tiles
 
 static void add_define(struct surface_defines *out, const char *name)
 {
@@ -45,15 +46,18 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
     if (has_modes) {
         add_define(out, "HAS_MODES");
     }
+    if (surface->stream) {
+        add_define(out, "HAS_PAGES");
+    }
     if (noise_is_there(&surface->noise)) {
         add_define(out, surface->is_invented ? "HAS_GROUND" : "HAS_NOISE"); // the last
     }
 }
 
 static void describe_layer(const struct terrain_layer *layer, const struct anchor *anchor,
-                           double radius_m, float rows[FRAME_ROWS][4])
+                           double radius_m, float (*rows)[4])
 {
-    const struct layer_frame *f = &layer->frame;
+    const struct layer_frame *f = layer_finest_frame(layer);
     const struct layer_view view = layer_view_from(f, anchor->latitude_rad, anchor->longitude_rad);
     const double texel[4] = {layer->texture_scale_m, f->texel_height,
                              log2(f->texel_height * radius_m), layer->texture_offset_m};
@@ -62,6 +66,9 @@ static void describe_layer(const struct terrain_layer *layer, const struct ancho
         rows[1][i] = (float)view.shape[i];
         rows[2][i] = (float)texel[i];
         rows[3][i] = (float)view.turn[i];
+    }
+    if (layer->tiles) {
+        stream_describe(layer->stream, layer->tiles, rows[4]);
     }
 }
 
@@ -76,19 +83,22 @@ static void bind_kind(const struct binding *binding, enum surface_kind kind,
 {
     const struct surface *surface = binding->surface;
     const struct surface_selection *selection = binding->selection;
-    float rows[SURFACE_SEEN_LAYERS][FRAME_ROWS][4] = {0};
+    const size_t row_count = surface->stream ? FRAME_ROWS : FRAME_ROWS - 1;
+    float rows[SURFACE_SEEN_LAYERS * FRAME_ROWS][4] = {0};
     float modes[4] = {0};
     char name[32];
     for (size_t i = 0; i < selection->counts[kind]; i++) {
         const struct terrain_layer *layer = &surface->layers[kind][selection->indices[kind][i]];
-        describe_layer(layer, binding->anchor, surface->radius_m, rows[i]);
+        describe_layer(layer, binding->anchor, surface->radius_m, &rows[i * row_count]);
         modes[i] = (float)layer->mode;
         snprintf(name, sizeof name, "%s%zu", KIND_UNIFORMS[kind], i);
-        gpu_program_set_texture(program, name, &layer->texture);
+        gpu_program_set_texture(program, name,
+                                layer->tiles ? stream_texture(layer->stream, layer->tiles)
+                                             : &layer->texture);
     }
     if (selection->counts[kind] > 0) {
-        gpu_program_set_vec4s(program, KIND_UNIFORMS[kind], rows[0][0],
-                              (size_t)SURFACE_SEEN_LAYERS * FRAME_ROWS);
+        gpu_program_set_vec4s(program, KIND_UNIFORMS[kind], rows[0],
+                              SURFACE_SEEN_LAYERS * row_count);
         snprintf(name, sizeof name, "%s_modes", KIND_UNIFORMS[kind]);
         gpu_program_set_vec4(program, name, modes);
     }
@@ -100,6 +110,9 @@ void surface_bind(const struct surface *surface, const struct surface_selection 
     const float place[4] = {(float)sin(anchor->latitude_rad), (float)cos(anchor->latitude_rad),
                             (float)anchor->latitude_rad, (float)surface->radius_m};
     gpu_program_set_vec4(program, "u_anchor", place);
+    if (surface->stream) {
+        gpu_program_set_texture(program, "u_pages", &surface->stream->atlas.pages);
+    }
     const struct binding binding = {surface, selection, anchor};
     for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
         bind_kind(&binding, (enum surface_kind)k, program);

@@ -29,7 +29,8 @@ static double bound_block(const struct terrain_layer *layer, uint32_t column, ui
             high = fmax(high, height);
         }
     }
-    return high + CUBIC_OVERSHOOT * (high - low);
+    // Of a layer in tiles only a coarse level is looked at: see bounds.c for what may rise above.
+    return high + (CUBIC_OVERSHOOT + (layer->tiles ? 1 : 0)) * (high - low);
 }
 
 static void fill_lowest(struct ceiling_pyramid *pyramid)

@@ -192,7 +192,7 @@ static trl_result update(struct mesher *base, const struct camera *camera)
 {
     struct hemisphere *h = (struct hemisphere *)base;
     h->camera = *camera;
-    if (!projection_is_stale(&h->projection, camera)) {
+    if (!projection_is_stale(&h->projection, h->surface, 0, camera)) {
         return TRL_OK;
     }
     h->projection = projection_make(h->surface, camera);

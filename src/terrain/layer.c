@@ -3,6 +3,7 @@
 #include "terrain/layer.h"
 
 #include "shared/cubic.glsl"
+#include "terrain/stream.h"
 #include "terrain/voids.h"
 
 #include <math.h>
@@ -39,7 +40,61 @@ void layer_set_texel(struct layer_heights *h, size_t i, double metres)
     }
 }
 
+const struct layer_frame *layer_finest_frame(const struct terrain_layer *layer)
+{
+    return layer->tiles ? &layer->tiles->frame : &layer->frame;
+}
+
 double layer_sample(const struct terrain_layer *layer, double x, double y)
+{
+    return layer->tiles ? stream_sample(layer->stream, layer->tiles, x, y)
+                        : layer_sample_held(layer, x, y);
+}
+
+double layer_sample_linear(const struct terrain_layer *layer, double x, double y)
+{
+    return layer->tiles ? stream_sample_linear(layer->stream, layer->tiles, x, y)
+                        : layer_sample_held_linear(layer, x, y);
+}
+
+double layer_sample_held_linear(const struct terrain_layer *layer, double x, double y)
+{
+    const int64_t column = (int64_t)floor(x), row = (int64_t)floor(y);
+    const double fx = x - (double)column, fy = y - (double)row;
+    const double north =
+        (1 - fx) * layer_texel(layer, column, row) + fx * layer_texel(layer, column + 1, row);
+    const double south = (1 - fx) * layer_texel(layer, column, row + 1) +
+                         fx * layer_texel(layer, column + 1, row + 1);
+    return (1 - fy) * north + fy * south;
+}
+
+void layer_sample_roots(const struct terrain_layer *layer, double x, double y, double rgba[4])
+{
+    if (layer->tiles) {
+        stream_sample_picture(layer->stream, layer->tiles, x, y, rgba);
+    } else {
+        layer_sample_held_roots(layer, x, y, rgba);
+    }
+}
+
+void layer_sample_held_roots(const struct terrain_layer *layer, double x, double y, double rgba[4])
+{
+    const double column = floor(x), row = floor(y);
+    const double part_x = x - column, part_y = y - row;
+    for (int c = 0; c < 4; c++) {
+        rgba[c] = 0;
+    }
+    for (int k = 0; k < 4; k++) {
+        const double weight = (k % 2 ? part_x : 1 - part_x) * (k / 2 ? part_y : 1 - part_y);
+        const size_t texel =
+            layer_texel_index(&layer->frame, (int64_t)column + k % 2, (int64_t)row + k / 2);
+        for (size_t c = 0; c < 4; c++) {
+            rgba[c] += weight * layer->roots[4 * texel + c] / 255;
+        }
+    }
+}
+
+double layer_sample_held(const struct terrain_layer *layer, double x, double y)
 {
     const int64_t column = (int64_t)floor(x);
     const int64_t row = (int64_t)floor(y);
@@ -115,12 +170,28 @@ static trl_result level_poles(struct terrain_layer *layer)
 trl_result layer_read_heights(const struct raster *raster, const struct layer_fill *below,
                               struct terrain_layer *layer)
 {
-    const trl_result result = read_texels(raster, layer);
-    if (result != TRL_OK) {
-        return result;
+    trl_result result = read_texels(raster, layer);
+    if (result == TRL_OK) {
+        result = voids_fill_heights(raster, below, layer);
     }
-    const trl_result filled = voids_fill_heights(raster, below, layer);
-    return filled == TRL_OK ? level_poles(layer) : filled;
+    return result == TRL_OK ? level_poles(layer) : result;
+}
+
+trl_result layer_take_heights(const struct raster *raster, const void *texels,
+                              const struct layer_fill *below, struct terrain_layer *layer)
+{
+    const size_t count = (size_t)layer->frame.width * layer->frame.height;
+    struct layer_heights *h = &layer->heights;
+    const bool is_float = raster->type == RASTER_FLOAT;
+    void *copy = mem_alloc(layer->ctx, count, is_float ? sizeof *h->floats : sizeof *h->shorts);
+    if (!copy) {
+        return TRL_ERROR_MEMORY;
+    }
+    memcpy(copy, texels, count * (is_float ? sizeof *h->floats : sizeof *h->shorts));
+    h->floats = is_float ? copy : NULL;
+    h->shorts = is_float ? NULL : copy;
+    const trl_result result = voids_fill_heights(raster, below, layer);
+    return result == TRL_OK ? level_poles(layer) : result;
 }
 
 static struct gpu_texture_desc describe_texture(const struct layer_frame *frame)
@@ -247,6 +318,14 @@ static trl_result upload_levels(struct terrain_layer *layer, const struct texels
     return result;
 }
 
+void layer_scale_texture(const struct gpu *gpu, struct terrain_layer *layer)
+{
+    const struct layer_heights *h = &layer->heights;
+    const bool is_norm = h->shorts && gpu->caps.has_norm16;
+    layer->texture_scale_m = is_norm ? UINT16_MAX * h->scale : h->scale;
+    layer->texture_offset_m = h->offset_m + (is_norm ? INT16_MIN * h->scale : 0);
+}
+
 trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer)
 {
     if (!gpu) {
@@ -255,13 +334,12 @@ trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer)
     const struct layer_heights *h = &layer->heights;
     struct gpu_texture_desc desc = describe_texture(&layer->frame);
     const bool is_norm = h->shorts && gpu->caps.has_norm16;
+    layer_scale_texture(gpu, layer);
     desc.label = "elevation";
     desc.format = is_norm ? GPU_FORMAT_R16 : GPU_FORMAT_R32F;
     if (!is_norm && !gpu->caps.has_float_linear) {
         desc.filter = GPU_FILTER_NEAREST; // terrain/layers.glsl filters by itself
     }
-    layer->texture_scale_m = is_norm ? UINT16_MAX * h->scale : h->scale;
-    layer->texture_offset_m = h->offset_m + (is_norm ? INT16_MIN * h->scale : 0);
     const struct texels texels = {.shorts = h->shorts,
                                   .floats = h->floats,
                                   .width = layer->frame.width,
@@ -279,6 +357,18 @@ static void make_root_table(uint8_t table[256])
         const double s = i / 255.0;
         const double linear = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
         table[i] = (uint8_t)lrint(sqrt(linear) * 255);
+    }
+}
+
+void layer_take_roots(uint8_t *rgba, size_t count)
+{
+    uint8_t table[256];
+    make_root_table(table);
+#pragma omp parallel for if (count > 1000000)
+    for (size_t i = 0; i < count; i++) {
+        for (int c = 0; c < 3; c++) {
+            rgba[4 * i + c] = table[rgba[4 * i + c]];
+        }
     }
 }
 
@@ -307,14 +397,7 @@ trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
         result = voids_fill_picture(raster, &layer->frame, rgba);
     }
     if (result == TRL_OK) {
-        uint8_t table[256];
-        make_root_table(table);
-#pragma omp parallel for
-        for (size_t i = 0; i < count; i++) {
-            for (int c = 0; c < 3; c++) {
-                rgba[4 * i + c] = table[rgba[4 * i + c]];
-            }
-        }
+        layer_take_roots(rgba, count);
         layer->roots = gpu ? NULL : rgba;
         result = gpu ? upload_bytes(gpu, GPU_FORMAT_RGBA8, rgba, layer) : TRL_OK;
     }
@@ -359,7 +442,9 @@ void layer_finish(struct terrain_layer *layer)
         mem_free(layer->ctx, layer->heights.shorts);
         mem_free(layer->ctx, layer->heights.floats);
         mem_free(layer->ctx, layer->roots);
-        gpu_texture_finish(&layer->texture);
+        if (!layer->tiles) {
+            gpu_texture_finish(&layer->texture);
+        }
     }
     *layer = (struct terrain_layer){0};
 }

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #ifndef TERRAIN_LAYER_H
 #define TERRAIN_LAYER_H
-// One raster of the surface, resident: on the GPU with its mips, elevations also on the CPU.
-// Without a GPU (NULL) pictures are on the CPU as well, and masks nowhere.
+// One raster of the surface. Held whole: on the GPU with its mips, elevations also on the CPU;
+// without a GPU (NULL) pictures are on the CPU as well, and masks nowhere. Or, where that is too
+// much, in tiles (stream.h): then what is here is a coarse level of it.
 
 #include "gpu/program.h"
 #include "gpu/texture.h"
@@ -16,8 +17,13 @@ struct layer_heights {
     double scale, offset_m;
 };
 
+struct stream;
+struct stream_layer;
+
 struct terrain_layer {
     const trl_context *ctx;
+    struct stream *stream; // NULL: held whole; else with the layer's tiles
+    struct stream_layer *tiles;
     struct layer_frame frame;
     double mode;                  // of shared/blend.glsl
     struct layer_heights heights; // of elevation layers only
@@ -34,8 +40,21 @@ double layer_texel(const struct terrain_layer *layer, int64_t x, int64_t y);
 // Sets what one texel holds, as near as its type allows.
 void layer_set_texel(struct layer_heights *heights, size_t index, double metres);
 
-// Metres, with the cubic of shared/cubic.glsl.
+// Metres, with the cubic of shared/cubic.glsl: of the finest texels that there are, and of those
+// that are held here.
 double layer_sample(const struct terrain_layer *layer, double x, double y);
+double layer_sample_held(const struct terrain_layer *layer, double x, double y);
+
+// The same, linear between texels.
+double layer_sample_linear(const struct terrain_layer *layer, double x, double y);
+double layer_sample_held_linear(const struct terrain_layer *layer, double x, double y);
+
+// RGBA of a picture without a GPU, square roots, linear between texels, 0 to 1; as above.
+void layer_sample_roots(const struct terrain_layer *layer, double x, double y, double rgba[4]);
+void layer_sample_held_roots(const struct terrain_layer *layer, double x, double y, double rgba[4]);
+
+// Where the finest texels lie, held here or not.
+const struct layer_frame *layer_finest_frame(const struct terrain_layer *layer);
 
 // Frame of an opened raster, reduced to what a texture may measure (gpu may be NULL).
 struct layer_frame layer_frame_for(const struct raster *raster, const struct gpu *gpu,
@@ -54,6 +73,18 @@ struct layer_fill {
 TRL_MUST_USE trl_result layer_read_heights(const struct raster *raster,
                                            const struct layer_fill *below,
                                            struct terrain_layer *layer);
+
+// The same of texels that have been read: shorts or floats of the frame's size, by the raster's
+// type; copied.
+TRL_MUST_USE trl_result layer_take_heights(const struct raster *raster, const void *texels,
+                                           const struct layer_fill *below,
+                                           struct terrain_layer *layer);
+
+// Square roots of linear values in place of sRGB codes, of `count` RGBA.
+void layer_take_roots(uint8_t *rgba, size_t count);
+
+// What textures of the layer's heights hold: R16 where there is that for shorts, else R32F.
+void layer_scale_texture(const struct gpu *gpu, struct terrain_layer *layer);
 
 // Texture of heights from the heights on the CPU.
 TRL_MUST_USE trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer);

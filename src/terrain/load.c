@@ -7,7 +7,9 @@
 #include "raster/remote.h"
 #include "shared/blend.glsl"
 #include "terrain/bounds.h"
+#include "terrain/load.h"
 #include "terrain/make.h"
+#include "terrain/stream.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,29 +25,16 @@ static const double KIND_TEXEL_BYTES[SURFACE_KIND_COUNT] = {4 * 4.0 / 3 + 4, 4 *
 
 struct surface_desc surface_desc_default(void)
 {
-    return (struct surface_desc){
-        .radius_m = 1, .default_albedo = {0.3f, 0.3f, 0.3f}, .exaggeration = 1, .max_bytes = 3e9};
+    return (struct surface_desc){.radius_m = 1,
+                                 .default_albedo = {0.3f, 0.3f, 0.3f},
+                                 .exaggeration = 1,
+                                 .max_bytes = 3e9,
+                                 .waits = true};
 }
 
-// What is needed while loading only.
-struct loader {
-    const struct surface_desc *desc;
-    struct surface *surface;
-    trl_context quiet; // the context, but errors of rasters wait in `said` for what becomes of them
-    char said[1024];
-    uint8_t *masks[SURFACE_MAX_LAYERS]; // owned; bytes of the water layers
-    double bytes;
-};
-
-// What a gap of the layer that is being read must hold to show what is below.
-struct below {
-    const struct surface *surface;
-    double mode;
-};
-
-static double fill_height(const void *user, double latitude, double longitude)
+double load_fill_height(const void *user, double latitude, double longitude)
 {
-    const struct below *below = user;
+    const struct load_below *below = user;
     const double altitude =
         surface_altitude_of_data(below->surface, vec3_from_lat_lon(latitude, longitude));
     return blend_neutral(below->mode, altitude);
@@ -61,7 +50,7 @@ static void read_mask_row(const struct loader *loader, const struct layer_frame 
         const struct layer_geo west = layer_geo_of(f, 0, y);
         const struct layer_place first = layer_locate(m, west.latitude, west.longitude);
         const uint8_t *texels =
-            loader->masks[i] + layer_texel_index(m, 0, (int64_t)floor(first.y + 0.5));
+            loader->surface->masks[i] + layer_texel_index(m, 0, (int64_t)floor(first.y + 0.5));
         // Both equirectangular: a row of places is a row of the mask.
         const bool is_row = f->pole == 0 && m->pole == 0 && m->is_whole_circle && first.weight > 0;
         if (is_row && m->width == f->width && fabs(first.x) < 0.5) {
@@ -76,8 +65,9 @@ static void read_mask_row(const struct loader *loader, const struct layer_frame 
         for (uint32_t x = 0; x < f->width && !is_row; x++) {
             const struct layer_geo at = layer_geo_of(f, x, y);
             const struct layer_place p = layer_locate(m, at.latitude, at.longitude);
-            row[x] = p.weight > 0 ? loader->masks[i][layer_texel_index(m, lrint(p.x), lrint(p.y))]
-                                  : row[x];
+            row[x] = p.weight > 0
+                         ? loader->surface->masks[i][layer_texel_index(m, lrint(p.x), lrint(p.y))]
+                         : row[x];
         }
     }
 }
@@ -100,7 +90,7 @@ static void raise_row(const struct layer_frame *f, const struct layer_heights *h
 
 // Open water draws at sea level; what lies below it is the ocean's to show. Dry land below sea
 // level stays.
-static trl_result raise_sea(const struct loader *loader, struct terrain_layer *layer)
+trl_result load_raise_sea(const struct loader *loader, struct terrain_layer *layer)
 {
     // Layers that add or multiply hold differences and factors, not heights.
     if (loader->surface->counts[SURFACE_WATER] == 0 || layer->mode == BLEND_ADD ||
@@ -127,48 +117,41 @@ static trl_result raise_sea(const struct loader *loader, struct terrain_layer *l
     return is_out_of_memory ? TRL_ERROR_MEMORY : TRL_OK;
 }
 
-static trl_result check_bytes(struct loader *loader, const struct raster *raster,
-                              const struct surface_layer_desc *desc)
+double load_whole_bytes(const struct loader *loader, const struct surface_layer_desc *desc,
+                        const struct raster *raster)
 {
     const struct gpu *gpu = loader->surface->gpu;
     const struct raster_window w =
         raster_window_whole(raster, gpu ? gpu->caps.max_texture_size : 0);
-    const double bytes = (double)w.out_width * w.out_height * KIND_TEXEL_BYTES[desc->kind];
-    if (loader->bytes + bytes > loader->desc->max_bytes) {
-        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                        "%s: %u x %u texels need %.0f MB; with the other rasters that is more than "
-                        "the %.0f MB allowed",
-                        desc->path, w.out_width, w.out_height, bytes / 1e6,
-                        loader->desc->max_bytes / 1e6);
+    return (double)w.out_width * w.out_height * KIND_TEXEL_BYTES[desc->kind];
+}
+
+trl_result load_set_scale(const struct loader *loader, const struct surface_layer_desc *desc,
+                          struct terrain_layer *layer)
+{
+    if (desc->scale == 0 || !isfinite(desc->scale) || !isfinite(desc->offset_m)) {
+        return trl_fail(&loader->quiet, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: a scale of %g and an offset of %g give no heights", desc->path,
+                        desc->scale, desc->offset_m);
     }
-    if (w.out_width != raster->width) {
-        trl_log(raster->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER,
-                "%s: %u x %u is reduced to %u x %u, the GPU's largest texture", desc->path,
-                raster->width, raster->height, w.out_width, w.out_height);
-    }
-    loader->bytes += bytes;
+    // Exaggerating every layer exaggerates their sum; factors are no heights.
+    const double exaggeration = layer->mode == BLEND_MULTIPLY ? 1 : loader->desc->exaggeration;
+    layer->heights.scale = desc->scale * exaggeration;
+    layer->heights.offset_m = desc->offset_m * exaggeration;
     return TRL_OK;
 }
 
 static trl_result load_elevation(struct loader *loader, const struct surface_layer_desc *desc,
                                  const struct raster *raster, struct terrain_layer *layer)
 {
-    const struct below under = {loader->surface, layer->mode};
-    const struct layer_fill below = {fill_height, &under};
-    // Exaggerating every layer exaggerates their sum; factors are no heights.
-    const double exaggeration = layer->mode == BLEND_MULTIPLY ? 1 : loader->desc->exaggeration;
-    layer->heights.scale = desc->scale * exaggeration;
-    layer->heights.offset_m = desc->offset_m * exaggeration;
-    trl_result result = desc->scale != 0 && isfinite(desc->scale) && isfinite(desc->offset_m)
-                            ? TRL_OK
-                            : trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                                       "%s: a scale of %g and an offset of %g give no heights",
-                                       desc->path, desc->scale, desc->offset_m);
+    const struct load_below under = {loader->surface, layer->mode};
+    const struct layer_fill below = {load_fill_height, &under};
+    trl_result result = load_set_scale(loader, desc, layer);
     if (result == TRL_OK) {
         result = layer_read_heights(raster, &below, layer);
     }
     if (result == TRL_OK) {
-        result = raise_sea(loader, layer);
+        result = load_raise_sea(loader, layer);
     }
     if (result == TRL_OK) {
         result = layer_upload_heights(loader->surface->gpu, layer);
@@ -204,7 +187,8 @@ static trl_result read_layer(struct loader *loader, const struct surface_layer_d
     case SURFACE_ELEVATION:
         return load_elevation(loader, desc, raster, layer);
     case SURFACE_WATER:
-        return layer_load_mask(s->gpu, raster, layer, &loader->masks[s->counts[SURFACE_WATER]]);
+        return layer_load_mask(s->gpu, raster, layer,
+                               &loader->surface->masks[s->counts[SURFACE_WATER]]);
     case SURFACE_NORMAL:
         return layer_load_normals(s->gpu, raster, layer);
     default:
@@ -222,35 +206,37 @@ static void listen(void *user, trl_log_level level, trl_log_item item, const cha
     }
 }
 
-static trl_result load_layer(struct loader *loader, const struct surface_layer_desc *desc)
+static trl_result load_layer(struct loader *loader, const struct surface_layer_desc *desc,
+                             const struct load_item *item)
 {
     struct surface *s = loader->surface;
-    struct raster raster = {0};
-    trl_result result = check_count(loader, desc);
+    trl_result result = item->opened;
     if (result == TRL_OK) {
-        result = raster_open(&loader->quiet, desc->path, &raster);
+        result = check_count(loader, desc);
+    }
+    if (result == TRL_OK) {
+        result = check_size(&item->raster);
     }
     if (result != TRL_OK) {
         return result;
     }
     struct terrain_layer *layer = &s->layers[desc->kind][s->counts[desc->kind]];
-    *layer = (struct terrain_layer){.ctx = s->ctx,
-                                    .mode = desc->mode,
-                                    .frame = layer_frame_for(&raster, s->gpu, desc->feather_rad)};
-    result = check_size(&raster);
-    if (result == TRL_OK) {
-        result = check_bytes(loader, &raster, desc);
+    *layer = (struct terrain_layer){.ctx = s->ctx, .mode = desc->mode};
+    if (item->is_tiled) {
+        result = load_tiled(loader, desc, &item->raster, layer);
+    } else {
+        layer->frame = layer_frame_for(&item->raster, s->gpu, desc->feather_rad);
+        result = read_layer(loader, desc, &item->raster, layer);
+        loader->bytes += result == TRL_OK ? load_whole_bytes(loader, desc, &item->raster) : 0;
     }
-    if (result == TRL_OK) {
-        result = read_layer(loader, desc, &raster, layer);
-    }
-    raster_finish(&raster);
     // Counted only now: heights of layers below fill the gaps of this one.
     s->counts[desc->kind] += result == TRL_OK;
     if (result != TRL_OK) {
         layer_finish(layer);
-        mem_free(s->ctx, loader->masks[s->counts[SURFACE_WATER]]);
-        loader->masks[s->counts[SURFACE_WATER]] = NULL;
+    }
+    if (result != TRL_OK && desc->kind == SURFACE_WATER) {
+        mem_free(s->ctx, s->masks[s->counts[SURFACE_WATER]]);
+        s->masks[s->counts[SURFACE_WATER]] = NULL;
     }
     return result;
 }
@@ -275,6 +261,36 @@ static trl_result go_without(struct loader *loader, const struct surface_layer_d
                            : result;
 }
 
+// All at once, since which are held whole depends on all.
+static trl_result open_rasters(struct loader *loader)
+{
+    const struct surface_desc *desc = loader->desc;
+    loader->items = mem_alloc(loader->surface->ctx, desc->layer_count, sizeof *loader->items);
+    if (!loader->items) {
+        return TRL_ERROR_MEMORY;
+    }
+    for (size_t i = 0; i < desc->layer_count; i++) {
+        const struct surface_layer_desc *layer = &desc->layers[i];
+        struct load_item *item = &loader->items[i];
+        item->is_passed_over = layer->is_optional && !is_there(layer->path);
+        if (!item->is_passed_over) {
+            loader->said[0] = '\0';
+            item->opened = raster_open(&loader->quiet, layer->path, &item->raster);
+            memcpy(item->said, loader->said, sizeof item->said);
+        }
+    }
+    load_choose_tiled(loader);
+    return TRL_OK;
+}
+
+static void close_rasters(struct loader *loader)
+{
+    for (size_t i = 0; loader->items && i < loader->desc->layer_count; i++) {
+        raster_finish(&loader->items[i].raster);
+    }
+    mem_free(loader->surface->ctx, loader->items);
+}
+
 // Water before the rest: heights are raised to sea level by it.
 static trl_result load_layers(struct loader *loader)
 {
@@ -283,11 +299,12 @@ static trl_result load_layers(struct loader *loader)
     for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
         for (size_t i = 0; i < loader->desc->layer_count; i++) {
             const struct surface_layer_desc *desc = &loader->desc->layers[i];
-            if (desc->kind != ORDER[k] || (desc->is_optional && !is_there(desc->path))) {
+            const struct load_item *item = &loader->items[i];
+            if (desc->kind != ORDER[k] || item->is_passed_over) {
                 continue;
             }
-            loader->said[0] = '\0';
-            trl_result result = load_layer(loader, desc);
+            memcpy(loader->said, item->said, sizeof loader->said);
+            trl_result result = load_layer(loader, desc, item);
             if (result != TRL_OK) {
                 result = go_without(loader, desc, result);
             }
@@ -297,6 +314,14 @@ static trl_result load_layers(struct loader *loader)
         }
     }
     return TRL_OK;
+}
+
+static void free_masks(struct surface *s)
+{
+    for (size_t i = 0; i < SURFACE_MAX_LAYERS && s->ctx; i++) {
+        mem_free(s->ctx, s->masks[i]);
+        s->masks[i] = NULL;
+    }
 }
 
 static trl_result fill_surface(const struct surface_desc *desc, struct surface *out)
@@ -310,16 +335,23 @@ static trl_result fill_surface(const struct surface_desc *desc, struct surface *
     loader.quiet.desc.log_user = &loader;
     trl_result result = make_ground(desc, out);
     if (result == TRL_OK) {
+        result = open_rasters(&loader);
+    }
+    if (result == TRL_OK) {
         result = load_layers(&loader);
     }
+    close_rasters(&loader);
     if (result == TRL_OK) {
         result = make_detail(desc, out);
     }
     if (result == TRL_OK) {
         result = surface_find_bounds(out);
     }
-    for (size_t i = 0; i < SURFACE_MAX_LAYERS; i++) {
-        mem_free(out->ctx, loader.masks[i]);
+    if (result == TRL_OK) {
+        result = load_start_stream(&loader);
+    }
+    if (result == TRL_OK && !out->stream) {
+        free_masks(out); // tiles need them as they come
     }
     if (result != TRL_OK) {
         surface_finish(out);
@@ -342,6 +374,8 @@ trl_result surface_init_on_cpu(const trl_context *ctx, const struct surface_desc
 
 void surface_finish(struct surface *surface)
 {
+    stream_destroy(&surface->stream); // before the layers that its threads look at
+    free_masks(surface);
     for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
         for (size_t i = 0; i < surface->counts[k]; i++) {
             layer_finish(&surface->layers[k][i]);

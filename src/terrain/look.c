@@ -23,25 +23,6 @@ static struct place find_place(struct vec3 direction)
                           atan2(direction.y, direction.x)};
 }
 
-// Linear between texels: RGBA of square roots, 0 to 1.
-static void sample_roots(const struct terrain_layer *layer, const struct layer_place *place,
-                         double rgba[4])
-{
-    const double column = floor(place->x), row = floor(place->y);
-    const double part_x = place->x - column, part_y = place->y - row;
-    for (int c = 0; c < 4; c++) {
-        rgba[c] = 0;
-    }
-    for (int k = 0; k < 4; k++) {
-        const double weight = (k % 2 ? part_x : 1 - part_x) * (k / 2 ? part_y : 1 - part_y);
-        const size_t texel =
-            layer_texel_index(&layer->frame, (int64_t)column + k % 2, (int64_t)row + k / 2);
-        for (size_t c = 0; c < 4; c++) {
-            rgba[c] += weight * layer->roots[4 * texel + c] / 255;
-        }
-    }
-}
-
 bool surface_picture(const struct surface *surface, enum surface_kind kind, struct vec3 direction,
                      double rgb[3])
 {
@@ -51,11 +32,11 @@ bool surface_picture(const struct surface *surface, enum surface_kind kind, stru
     for (size_t i = 0; i < surface->counts[kind]; i++) {
         const struct terrain_layer *layer = &surface->layers[kind][i];
         const struct layer_place place = layer_locate(&layer->frame, at.latitude, at.longitude);
-        if (!(place.weight > 0) || !layer->roots) {
+        if (!(place.weight > 0) || !(layer->roots || layer->tiles)) {
             continue;
         }
         double rgba[4];
-        sample_roots(layer, &place, rgba);
+        layer_sample_roots(layer, place.x, place.y, rgba);
         const double cover = rgba[3] * place.weight;
         for (int c = 0; c < 3; c++) {
             // Light is added, not its roots.
@@ -83,10 +64,10 @@ double surface_half_texel_m(const struct surface *surface, struct vec3 direction
     const struct vec3 up = vec3_normalize(direction);
     double finest = 2 * BARE_STEP;
     for (size_t i = 0; i < surface->counts[SURFACE_ELEVATION]; i++) {
-        const struct layer_frame *frame = &surface->layers[SURFACE_ELEVATION][i].frame;
-        if (layer_locate(frame, at.latitude, at.longitude).weight > 0 ||
-            (reach_rad > 0 && is_within(frame, up, reach_rad))) {
-            finest = fmin(finest, frame->texel_height);
+        const struct terrain_layer *layer = &surface->layers[SURFACE_ELEVATION][i];
+        if (layer_locate(&layer->frame, at.latitude, at.longitude).weight > 0 ||
+            (reach_rad > 0 && is_within(&layer->frame, up, reach_rad))) {
+            finest = fmin(finest, layer_finest_frame(layer)->texel_height);
         }
     }
     finest *= surface->radius_m;

@@ -41,8 +41,12 @@ trl_result make_detail(const struct surface_desc *desc, struct surface *s)
         return TRL_OK;
     }
     const struct terrain_layer *lowest = &s->layers[SURFACE_ELEVATION][0];
-    const struct roughness_desc roughness = {lowest, s->radius_m, d->roughness, DETAIL_RIDGED};
-    const double wave_m = ROUGHNESS_TEXELS * lowest->frame.texel_height * s->radius_m;
+    const double texel_m = layer_finest_frame(lowest)->texel_height * s->radius_m;
+    // Measured on what is held of the layer: of tiles, that is a coarse level.
+    const double finer = texel_m / (lowest->frame.texel_height * s->radius_m);
+    const struct roughness_desc roughness = {
+        lowest, s->radius_m, d->roughness * pow(finer, DETAIL_HURST), DETAIL_RIDGED};
+    const double wave_m = ROUGHNESS_TEXELS * texel_m;
     const struct noise_desc noise = {.form = NOISE_ERODED,
                                      .octaves = NOISE_MAX_OCTAVES,
                                      .wavelength_m = wave_m,

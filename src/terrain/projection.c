@@ -24,9 +24,12 @@ double projection_lift(double distance_m, double ground_m, double peak_m)
     return (r * r - h * s) / (r * (h + s));
 }
 
-bool projection_is_stale(const struct projection *p, const struct camera *camera)
+bool projection_is_stale(const struct projection *p, const struct surface *surface, double more_rad,
+                         const struct camera *camera)
 {
-    return !p->is_made || vec3_length(vec3_sub(camera->position_m, p->position_m)) > p->threshold_m;
+    return !p->is_made ||
+           surface_has_changed(surface, p->revision, p->anchor.up, p->reach_rad + more_rad) ||
+           vec3_length(vec3_sub(camera->position_m, p->position_m)) > p->threshold_m;
 }
 
 struct surface_eye projection_eye(const struct projection *p, const struct surface *surface,
@@ -45,7 +48,8 @@ static double find_texel(const struct surface *surface, const struct projection 
     double finest = p->reach_rad;
     for (size_t i = 0; i < seen.counts[SURFACE_ELEVATION]; i++) {
         const size_t index = seen.indices[SURFACE_ELEVATION][i];
-        finest = fmin(finest, surface->layers[SURFACE_ELEVATION][index].frame.texel_height);
+        const struct terrain_layer *layer = &surface->layers[SURFACE_ELEVATION][index];
+        finest = fmin(finest, layer_finest_frame(layer)->texel_height);
     }
     if (noise_is_there(&surface->noise)) {
         finest = fmin(finest, NOISE_TEXEL_M / surface->radius_m);
@@ -58,6 +62,7 @@ struct projection projection_make(const struct surface *surface, const struct ca
     const double distance = vec3_length(camera->position_m);
     const double ground = surface->radius_m + surface_altitude(surface, camera->position_m);
     struct projection p = {.is_made = true,
+                           .revision = surface_revision(surface),
                            .position_m = camera->position_m,
                            .anchor = anchor_below(camera->position_m),
                            .height_m = fmax(distance - ground, 0.1)};

@@ -15,6 +15,7 @@ double projection_lift(double distance_m, double ground_m, double peak_m);
 
 struct projection {
     bool is_made;
+    uint64_t revision;      // of the surface
     struct vec3 position_m; // of the projection camera
     struct anchor anchor;   // below it
     double threshold_m;     // how far the camera may move away from position_m
@@ -28,8 +29,10 @@ struct projection {
     double max_altitude_m; // within reach
 };
 
-// True when `p` was made for another place than the camera's.
-bool projection_is_stale(const struct projection *p, const struct camera *camera);
+// True when `p` was made for another place than the camera's, or for other heights within its reach
+// and `more_rad`.
+bool projection_is_stale(const struct projection *p, const struct surface *surface, double more_rad,
+                         const struct camera *camera);
 struct projection projection_make(const struct surface *surface, const struct camera *camera);
 
 // The eye of surface_select for what a projection shows, and `more_rad` around it.

@@ -220,7 +220,8 @@ static double find_finest(const struct surface *surface, const struct surface_ey
     double finest = tiles_side_rad(TILES_BAND);
     for (size_t i = 0; i < seen.counts[SURFACE_ELEVATION]; i++) {
         const size_t index = seen.indices[SURFACE_ELEVATION][i];
-        finest = fmin(finest, surface->layers[SURFACE_ELEVATION][index].frame.texel_height);
+        const struct terrain_layer *layer = &surface->layers[SURFACE_ELEVATION][index];
+        finest = fmin(finest, layer_finest_frame(layer)->texel_height);
     }
     return finest * surface->radius_m;
 }
@@ -269,6 +270,29 @@ trl_result quadtree_nodes_make(struct quadtree_nodes *nodes, const uint32_t *ind
     }
     mem_free(nodes->ctx, samples);
     return result;
+}
+
+void quadtree_nodes_follow_surface(struct quadtree_nodes *nodes)
+{
+    const uint64_t revision = surface_revision(nodes->surface);
+    if (revision == nodes->revision) {
+        return;
+    }
+    for (uint32_t i = 1; i < nodes->end; i++) {
+        struct quadtree_node *n = &nodes->all[i];
+        n->is_ready = n->is_ready &&
+                      !surface_has_changed(nodes->surface, nodes->revision, n->up, n->angle_rad);
+    }
+    // Vertices also tell of the grids of two ancestors.
+    for (uint32_t i = 1; i < nodes->end; i++) {
+        struct quadtree_node *n = &nodes->all[i];
+        const struct quadtree_node *parent = &nodes->all[n->parent];
+        const bool is_old =
+            n->parent != 0 &&
+            (!parent->is_ready || (parent->parent != 0 && !nodes->all[parent->parent].is_ready));
+        n->serial = is_old && n->is_ready ? ++nodes->made : n->serial;
+    }
+    nodes->revision = revision;
 }
 
 // A part of an ancestor's grid that covers a node.

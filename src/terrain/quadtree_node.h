@@ -41,7 +41,8 @@ struct quadtree_nodes {
     struct quadtree_node *all; // owned; tiles from 1, then blocks of four
     uint32_t capacity, end;    // end: from here on never used
     uint32_t frame;
-    uint32_t made; // since creation
+    uint32_t made;     // since creation
+    uint64_t revision; // of the surface
 };
 
 // TRL_ERROR_MEMORY; TRL_ERROR_GPU.
@@ -57,6 +58,9 @@ static inline uint32_t quadtree_root(int32_t tile)
 
 // Gives nodes children that are not ready yet. Those that no longer fit stay without: false.
 bool quadtree_nodes_add_children(struct quadtree_nodes *nodes, uint32_t parent);
+
+// Nodes whose ground has become another are not ready any more. Before a frame's first look at any.
+void quadtree_nodes_follow_surface(struct quadtree_nodes *nodes);
 
 // Makes all that are not ready of `count` nodes. Their parents must be ready.
 TRL_MUST_USE trl_result quadtree_nodes_make(struct quadtree_nodes *nodes, const uint32_t *indices,

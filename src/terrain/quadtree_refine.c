@@ -283,6 +283,7 @@ trl_result quadtree_refine(struct quadtree_nodes *nodes, const struct camera *ca
     *r = (struct refinement){.nodes = nodes,
                              .sight = quadtree_sight_make(nodes->surface, camera),
                              .tolerance_rad = tolerance_rad};
+    quadtree_nodes_follow_surface(nodes);
     trl_result result = refine_once(r);
     while (result == TRL_OK && r->is_too_much) {
         r->tolerance_rad *= RELIEF;

@@ -129,7 +129,7 @@ static trl_result draw_map(struct terrain_shadow *s)
 
 trl_result terrain_shadow_update(struct terrain_shadow *s, const struct camera *camera)
 {
-    const bool is_stale = projection_is_stale(&s->projection, camera);
+    const bool is_stale = projection_is_stale(&s->projection, s->surface, OUTSIDE_RAD, camera);
     const double turned = vec3_length(vec3_sub(camera->sun_direction, s->sun));
     if (!is_stale && turned < SUN_STEP_RAD) {
         return TRL_OK;

@@ -6,16 +6,12 @@
 
 #include <math.h>
 
-// Linear between texels.
+// Linear between the finest texels, at a place given in those.
 static double sample_linear(const struct terrain_layer *layer, double x, double y)
 {
-    const int64_t column = (int64_t)floor(x), row = (int64_t)floor(y);
-    const double fx = x - (double)column, fy = y - (double)row;
-    const double north =
-        (1 - fx) * layer_texel(layer, column, row) + fx * layer_texel(layer, column + 1, row);
-    const double south = (1 - fx) * layer_texel(layer, column, row + 1) +
-                         fx * layer_texel(layer, column + 1, row + 1);
-    return (1 - fy) * north + fy * south;
+    const struct layer_frame *f = layer_finest_frame(layer);
+    return layer_sample_linear(layer, (x + 0.5) * layer->frame.width / f->width - 0.5,
+                               (y + 0.5) * layer->frame.height / f->height - 0.5);
 }
 
 // Columns and rows of half a step: texels are narrower than high toward the poles of
@@ -43,19 +39,19 @@ static struct vec3 find_way(const struct layer_frame *f, const struct layer_plac
 static struct vec3 find_slope(const struct terrain_layer *layer, const struct layer_place *place,
                               struct vec3 up)
 {
+    const struct layer_frame *f = layer_finest_frame(layer);
     double steps[2];
-    find_steps(&layer->frame, up, steps);
+    find_steps(f, up, steps);
     struct vec3 slope = {0, 0, 0};
     for (int i = 0; i < 2; i++) {
         const double dx = i == 0 ? steps[0] : 0, dy = i == 1 ? steps[1] : 0;
-        const struct vec3 chord = find_way(&layer->frame, place, dx, dy);
+        const struct vec3 chord = find_way(f, place, dx, dy);
         const struct vec3 way = vec3_sub(chord, vec3_scale(up, vec3_dot(chord, up)));
         const double length = vec3_length(way);
         // The angle along the parallel, not its chord.
-        const double angle =
-            i == 0 && layer->frame.pole == 0
-                ? 2 * steps[0] * layer->frame.texel_width * fmax(hypot(up.x, up.y), 1e-5)
-                : 2 * asin(fmin(1, length / 2));
+        const double angle = i == 0 && f->pole == 0
+                                 ? 2 * steps[0] * f->texel_width * fmax(hypot(up.x, up.y), 1e-5)
+                                 : 2 * asin(fmin(1, length / 2));
         const double rise = sample_linear(layer, place->x + dx, place->y + dy) -
                             sample_linear(layer, place->x - dx, place->y - dy);
         slope = vec3_add(slope, vec3_scale(way, rise / (angle * fmax(length, 1e-30))));
@@ -66,8 +62,9 @@ static struct vec3 find_slope(const struct terrain_layer *layer, const struct la
 void slope_lay_over(const struct terrain_layer *layer, struct vec3 up, double radius_m,
                     struct slope *s)
 {
+    const struct layer_frame *f = layer_finest_frame(layer);
     const struct layer_place place =
-        layer_locate(&layer->frame, atan2(up.z, hypot(up.x, up.y)), atan2(up.y, up.x));
+        layer_locate(f, atan2(up.z, hypot(up.x, up.y)), atan2(up.y, up.x));
     if (!(place.weight > 0)) {
         return;
     }
@@ -79,5 +76,5 @@ void slope_lay_over(const struct terrain_layer *layer, struct vec3 up, double ra
                                blend_slope(mode, s->height_m, height, s->slope.z, own.z)};
     s->slope = vec3_add(s->slope, vec3_scale(vec3_sub(whole, s->slope), place.weight));
     s->height_m = blend_layers(mode, s->height_m, height, place.weight);
-    s->log2_texel += place.weight * (log2(layer->frame.texel_height * radius_m) - s->log2_texel);
+    s->log2_texel += place.weight * (log2(f->texel_height * radius_m) - s->log2_texel);
 }

@@ -4,6 +4,7 @@
 
 #include "shared/blend.glsl"
 #include "terrain/slope.h"
+#include "terrain/stream.h"
 
 #include <math.h>
 
@@ -143,5 +144,29 @@ size_t surface_count_seen(const struct surface *surface, enum surface_kind kind)
 {
     static const size_t MOST[SURFACE_KIND_COUNT] = {SURFACE_SEEN_LAYERS, SURFACE_SEEN_LAYERS, 2, 2,
                                                     1};
-    return surface->counts[kind] < MOST[kind] ? surface->counts[kind] : MOST[kind];
+    // The table of pages takes the place of one picture of lights.
+    const size_t most = MOST[kind] - (kind == SURFACE_LIGHTS && surface->stream ? 1 : 0);
+    return surface->counts[kind] < most ? surface->counts[kind] : most;
+}
+
+trl_result surface_update(struct surface *surface, const struct camera *camera, double pixel_rad)
+{
+    const struct stream_view view = {camera, pixel_rad};
+    return surface->stream ? stream_update(surface->stream, surface, &view) : TRL_OK;
+}
+
+uint64_t surface_revision(const struct surface *surface)
+{
+    return surface->stream ? surface->stream->revision : 0;
+}
+
+bool surface_has_changed(const struct surface *surface, uint64_t since, struct vec3 direction,
+                         double angle_rad)
+{
+    return surface->stream && stream_has_changed(surface->stream, since, direction, angle_rad);
+}
+
+bool surface_is_settled(const struct surface *surface)
+{
+    return !surface->stream || surface->stream->missing == 0;
 }

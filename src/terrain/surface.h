@@ -6,8 +6,8 @@
 // of rasters. Height is answered on the CPU in double and on the GPU in float; the rest on the GPU,
 // or, where there is none, by look.h.
 //
-// Rasters are held whole, with their mip chains. (Streaming of larger ones will stand behind
-// struct terrain_layer: nobody else sees how texels come to be there.)
+// Rasters are held whole, with their mip chains, or, where they need more memory than they may
+// have, in tiles that views load as they show them (stream.h). Nobody else sees which.
 
 #include "terrain/anchor.h"
 #include "terrain/biomes.h"
@@ -56,10 +56,11 @@ struct surface_desc {
     struct noise_desc noise;                 // octaves: 0: none
     struct biomes biomes;                    // colours of invented ground
     struct continents_desc continents;       // height_m > 0: the ground is the noise's own
-    double max_bytes; // rasters that would need more are refused; see default
+    double max_bytes; // of all rasters; what would need more is held in tiles
+    bool waits;       // for tiles: every answer and frame is exact
 };
 
-// An empty surface of radius 1, albedo 0.3, at most 3 GB.
+// An empty surface of radius 1, albedo 0.3, at most 3 GB, that waits.
 struct surface_desc surface_desc_default(void);
 
 // Lowest and highest altitude in a cell of an equirectangular table, reconstruction included.
@@ -81,6 +82,8 @@ struct surface {
     bool is_invented;              // the noise's map is the ground below all layers
     struct surface_bounds *bounds; // owned; north row first, from 180 W
     double min_altitude_m, max_altitude_m;
+    struct stream *stream;              // owned; NULL: all layers are held whole
+    uint8_t *masks[SURFACE_MAX_LAYERS]; // owned; bytes of the water layers, where there is a stream
 };
 
 // Reads and uploads all rasters. One that is there but no good (too many, beyond max_bytes, not
@@ -97,6 +100,23 @@ TRL_MUST_USE trl_result surface_init_on_cpu(const trl_context *ctx, const struct
                                             struct surface *out);
 
 void surface_finish(struct surface *surface);
+
+// Before a view is drawn: loads the tiles that it shows, as far as they are there, or all of them
+// where the surface waits. TRL_ERROR_MEMORY; TRL_ERROR_GPU; TRL_ERROR_CANCELLED.
+struct camera;
+TRL_MUST_USE trl_result surface_update(struct surface *surface, const struct camera *camera,
+                                       double pixel_rad);
+
+// Grows whenever heights on the GPU have become others, because tiles came.
+uint64_t surface_revision(const struct surface *surface);
+
+// Whether that happened since a revision within `angle_rad` of a unit direction. What was made
+// there of heights is to be made anew.
+bool surface_has_changed(const struct surface *surface, uint64_t since, struct vec3 direction,
+                         double angle_rad);
+
+// Whether the last view that was updated shows all that it could.
+bool surface_is_settled(const struct surface *surface);
 
 // False: the passes of this folder have nothing to show that a bare sphere does not.
 bool surface_has_layers(const struct surface *surface);

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// What is done to a tile on a loader's thread: the same that is done to rasters that are held whole
+// (load.c), as far as a tile can know it.
+#include "terrain/stream.h"
+
+#include "shared/blend.glsl"
+#include "terrain/surface.h"
+#include "terrain/voids.h"
+
+#include <math.h>
+#include <string.h>
+
+// Cosines of the latitude between which heights go over to the coarse level's: there it is that
+// texels are averaged around the pole, since they are narrower than high.
+static const double POLE_BEGINS = 1.0 / 16, POLE_ENDS = 1.0 / 48;
+
+struct tile_heights {
+    const struct stream_layer *l;
+    uint32_t level;
+    double first_x, first_y; // of the tile's texels, in those of the level
+    int16_t *shorts;
+    float *floats;
+};
+
+static double get_height(const struct tile_heights *t, size_t i)
+{
+    return t->shorts ? t->shorts[i] : (double)t->floats[i];
+}
+
+static void set_height(const struct tile_heights *t, size_t i, double value)
+{
+    if (t->shorts) {
+        t->shorts[i] = (int16_t)lrint(fmax(INT16_MIN, fmin(INT16_MAX, value)));
+    } else {
+        t->floats[i] = (float)value;
+    }
+}
+
+// Column or row of a tile's texel on another grid over the same raster.
+static double map_texel(double first, size_t i, uint32_t from, uint32_t to)
+{
+    return (first + (double)i + 0.5) * to / from - 0.5;
+}
+
+// What the coarse level holds at a texel, in units of the file.
+static double coarse_value(const struct tile_heights *t, size_t i)
+{
+    const struct terrain_layer *layer = t->l->layer;
+    const struct pyramid_level *level = &t->l->pyramid.levels[t->level];
+    const double x = map_texel(t->first_x, i % PYRAMID_SIDE, level->width, layer->frame.width);
+    const double y = map_texel(t->first_y, i / PYRAMID_SIDE, level->height, layer->frame.height);
+    return (layer_sample_held(layer, x, y) - layer->heights.offset_m) / layer->heights.scale;
+}
+
+static struct layer_geo place_of(const struct tile_heights *t, size_t i)
+{
+    const struct layer_frame *f = &t->l->frame;
+    const struct pyramid_level *level = &t->l->pyramid.levels[t->level];
+    return layer_geo_of(f, map_texel(t->first_x, i % PYRAMID_SIDE, level->width, f->width),
+                        map_texel(t->first_y, i / PYRAMID_SIDE, level->height, f->height));
+}
+
+// In gaps stands what the coarse level has there: its own were filled when it was read.
+static void fill_voids(const struct tile_heights *t)
+{
+    const struct raster *raster = &t->l->pyramid.raster;
+    for (size_t i = 0; i < PYRAMID_TEXELS; i++) {
+        const bool is_void = t->floats
+                                 ? !isfinite(t->floats[i])
+                                 : raster->has_nodata && (double)t->shorts[i] == raster->nodata;
+        if (is_void) {
+            set_height(t, i, coarse_value(t, i));
+        }
+    }
+}
+
+static void level_pole(const struct tile_heights *t)
+{
+    const struct layer_frame *f = &t->l->frame;
+    for (size_t row = 0; row < PYRAMID_SIDE && f->is_whole_circle; row++) {
+        const struct layer_geo g = place_of(t, row * PYRAMID_SIDE);
+        const bool is_near = g.latitude > 0 ? f->touches_north : f->touches_south;
+        const double part = (POLE_BEGINS - cos(g.latitude)) / (POLE_BEGINS - POLE_ENDS);
+        if (!is_near || part <= 0) {
+            continue;
+        }
+        const double s = fmin(part, 1);
+        for (size_t i = row * PYRAMID_SIDE; i < (row + 1) * PYRAMID_SIDE; i++) {
+            const double value = get_height(t, i);
+            set_height(t, i, value + s * s * (3 - 2 * s) * (coarse_value(t, i) - value));
+        }
+    }
+}
+
+// Whether the last mask that covers a place says that it is open water.
+static bool is_water(const struct surface *s, const struct layer_geo *g)
+{
+    uint8_t mask = 0;
+    for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
+        const struct layer_frame *m = &s->layers[SURFACE_WATER][i].frame;
+        const struct layer_place p = layer_locate(m, g->latitude, g->longitude);
+        mask = p.weight > 0 && s->masks[i]
+                   ? s->masks[i][layer_texel_index(m, lrint(p.x), lrint(p.y))]
+                   : mask;
+    }
+    return mask > 127;
+}
+
+static void raise_sea(const struct tile_heights *t)
+{
+    const struct terrain_layer *layer = t->l->layer;
+    const struct surface *s = t->l->surface;
+    const double zero = -layer->heights.offset_m / layer->heights.scale;
+    if (s->counts[SURFACE_WATER] == 0 || layer->mode == BLEND_ADD ||
+        layer->mode == BLEND_MULTIPLY) {
+        return;
+    }
+    for (size_t i = 0; i < PYRAMID_TEXELS; i++) {
+        if (get_height(t, i) < zero) {
+            const struct layer_geo g = place_of(t, i);
+            if (is_water(s, &g)) {
+                set_height(t, i, zero);
+            }
+        }
+    }
+}
+
+static struct tile_range find_range(const struct tile_heights *t)
+{
+    const struct layer_heights *h = &t->l->layer->heights;
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < PYRAMID_TEXELS; i++) {
+        const double value = h->offset_m + h->scale * get_height(t, i);
+        low = fmin(low, value);
+        high = fmax(high, value);
+    }
+    return (struct tile_range){(float)low, (float)high};
+}
+
+// Colours spread into gaps, so that filters mix in no black; then roots.
+static void prepare_picture(const struct stream_layer *l, uint8_t *rgba)
+{
+    size_t voids = 0;
+    for (size_t i = 0; i < PYRAMID_TEXELS; i++) {
+        voids += rgba[4 * i + 3] == 0;
+    }
+    const struct layer_frame frame = {
+        .width = PYRAMID_SIDE, .height = PYRAMID_SIDE, .texel_height = 1, .feather = 1};
+    if (voids > 0 && voids < PYRAMID_TEXELS) {
+        const trl_result result = voids_fill_picture(&l->pyramid.raster, &frame, rgba);
+        (void)result; // without memory for it, gaps stay black below their alpha
+    }
+    if (l->is_root) {
+        layer_take_roots(rgba, PYRAMID_TEXELS);
+    }
+}
+
+void stream_prepare(const void *user, const struct pyramid_tile *tile, void *texels,
+                    struct tile_range *range)
+{
+    const struct stream_layer *l = user;
+    if (l->is_elevation) {
+        const bool is_float = l->pyramid.format == PYRAMID_FLOAT;
+        const struct tile_heights t = {.l = l,
+                                       .level = tile->level,
+                                       .first_x = tile->x * (double)PYRAMID_TILE - PYRAMID_BORDER,
+                                       .first_y = tile->y * (double)PYRAMID_TILE - PYRAMID_BORDER,
+                                       .shorts = is_float ? NULL : texels,
+                                       .floats = is_float ? texels : NULL};
+        fill_voids(&t);
+        level_pole(&t);
+        raise_sea(&t);
+        *range = find_range(&t);
+    } else if (l->pyramid.format == PYRAMID_RGBA8) {
+        prepare_picture(l, texels);
+    }
+}
