@@ -26,6 +26,8 @@ static const struct bench benches[] = {
      NULL},
     {"terrain-error", "each mesh of the ground against rays: pixels, triangles, time, popping",
      bench_run_terrain_error, NULL},
+    {"stream", "rasters larger than their memory: first complete frame, tiles, a flight",
+     bench_run_stream, NULL},
     {"schafhitzel-table2", "single scattering on spheres: 3D table against integrals at vertices",
      bench_run_schafhitzel_table2, "Schafhitzel, Falk and Ertl 2007, Table 2"},
     {"santana-samples", "model rayleigh: points along a line of sight, error and time",
