@@ -20,7 +20,8 @@ tools=$(cd "$(dirname "$0")" && pwd)
 data=${TERRELLA_DATA:-${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}/terrella/data}
 sources=${TERRELLA_DATA_SOURCES:-$tools/data-sources.txt}
 archives=$data/packages
-outputs=(elevation.tif water.tif colorado.tif colour.tif lights.tif)
+outputs=(elevation.tif elevation-north.tif elevation-south.tif water.tif colorado.tif colour.tif colour-north.tif
+    colour-south.tif lights.tif)
 
 die() {
     echo "data: $*" >&2
@@ -355,6 +356,28 @@ stamp_of_body() { # body
     ) | sha256sum | cut -d ' ' -f 1
 }
 
+# Earth's insets: files as those of other bodies, none of them needed, made beside the globe. Silent where there is
+# nothing to be had.
+make_insets() { # prepare-tool
+    local i stamp has_any=''
+    for i in "${!files[@]}"; do
+        if [ "${files[$i]%%/*}" = earth ] && fetch_file "$i" 2>/dev/null; then
+            has_any=1
+        fi
+    done
+    [ -n "$has_any" ] || return 0
+    stamp=$(stamp_of_body earth)
+    if [ "$(cat "$data/earth/stamp-insets" 2>/dev/null)" = "$stamp" ]; then
+        return 0
+    fi
+    if ! "$1" "$data/archives" "$data/earth" earth-insets; then
+        echo "data: earth: its insets could not be made"
+        return 0
+    fi
+    echo "$stamp" >"$data/earth/stamp-insets"
+    echo "data: Earth's insets made"
+}
+
 # Another body than Earth. Nothing here is fatal: its scenes do without, or say what they lack.
 make_body() { # body prepare-tool
     local body=$1 i missing='' has_any='' stamp began=$SECONDS
@@ -401,6 +424,7 @@ make_bodies() { # prepare-tool body...
         if [ "$body" = earth ]; then
             fetch_all
             make_rasters "$tool"
+            make_insets "$tool"
         else
             make_body "$body" "$tool"
         fi

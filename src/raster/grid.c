@@ -9,6 +9,11 @@ static const double PI = 3.14159265358979323846;
 trl_result raster_grid_load(const struct raster *raster, uint32_t max_side, struct raster_grid *out)
 {
     const struct raster_window window = raster_window_whole(raster, max_side);
+    if (raster->plane.pole != 0) {
+        *out = (struct raster_grid){0};
+        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: a map about a pole has no columns of longitude", raster->path);
+    }
     *out = (struct raster_grid){
         .ctx = raster->ctx,
         .width = window.out_width,

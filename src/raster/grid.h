@@ -19,7 +19,8 @@ struct raster_grid {
 };
 
 // Reads band 0 at no more than `max_side` pixels in either direction (0: all of them).
-// Returns TRL_OK; TRL_ERROR_IO; TRL_ERROR_INVALID; TRL_ERROR_MEMORY. *out is zeroed on failure.
+// Returns TRL_OK; TRL_ERROR_IO; TRL_ERROR_INVALID (also: stereographic); TRL_ERROR_MEMORY. *out is
+// zeroed on failure.
 TRL_MUST_USE trl_result raster_grid_load(const struct raster *raster, uint32_t max_side,
                                          struct raster_grid *out);
 

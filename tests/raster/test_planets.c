@@ -68,6 +68,42 @@ static void check_body(const char *body, const struct place *places, size_t coun
 
 #define CHECK(body, places) check_body((body), (places), sizeof(places) / sizeof((places)[0]))
 
+// The pole is the middle of a map about it, and has the height that the globe has there.
+static void check_pole(const char *name, double pole, double min_m, double max_m)
+{
+    trl_context_desc desc = trl_context_desc_default();
+    desc.log = trl_log_stderr;
+    trl_context *ctx = NULL;
+    assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
+    char *path = mem_printf(ctx, "%s/%s", trl_context_data_dir(ctx), name);
+    assert_non_null(path);
+    if (access(path, R_OK) == 0) {
+        struct raster raster;
+        assert_int_equal(raster_open(ctx, path, &raster), TRL_OK);
+        assert_true(raster.plane.pole == pole);
+        assert_true(raster.plane.left + raster.width * raster.plane.pixel_width / 2 < 1e-9);
+        const struct raster_window middle = {raster.width / 2, raster.height / 2, 1, 1, 1, 1};
+        float metres;
+        assert_int_equal(raster_read_float(&raster, &middle, 0, &metres), TRL_OK);
+        print_message("%-34s %8.1f m\n", name, (double)metres);
+        assert_true((double)metres >= min_m && (double)metres <= max_m);
+        raster_finish(&raster);
+    }
+    mem_free(ctx, path);
+    trl_context_destroy(&ctx);
+}
+
+// Earth's south pole lies on ice 2835 m above the sea, the sea floor at its north
+// pole is 4000 to 4300 m deep. Mars' caps are 2000 m below and 3850 m above the areoid there.
+static void poles_have_their_height(void **state)
+{
+    (void)state;
+    check_pole("earth/elevation-north.tif", 1, -4600, -3500);
+    check_pole("earth/elevation-south.tif", -1, 2600, 3000);
+    check_pole("mars/elevation-north.tif", 1, -2300, -1700);
+    check_pole("mars/elevation-south.tif", -1, 3500, 4300);
+}
+
 static void known_places_have_their_height(void **state)
 {
     (void)state;
@@ -78,6 +114,7 @@ static void known_places_have_their_height(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(known_places_have_their_height)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(known_places_have_their_height),
+                                       cmocka_unit_test(poles_have_their_height)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,13 +7,13 @@
 
 #define PI 3.14159265358979323846
 
-static double light_of_code(double code)
+double light_of_code(double code)
 {
     const double x = code / 255;
     return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
 }
 
-static double code_of_light(double light)
+double code_of_light(double light)
 {
     const double x = fmin(1, fmax(0, light));
     return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055);
@@ -116,6 +116,11 @@ trl_result albedo_prepare(const struct places *places, const struct albedo_map *
     }
     if (result == TRL_OK) {
         result = picture_write(places, map->name, &picture);
+    }
+    if (result == TRL_OK && map->polar) {
+        const struct globe_values globe = {picture.width, picture.height, picture.bands, NULL,
+                                           picture.pixels};
+        result = polar_prepare(places, map->polar, "colour", &globe);
     }
     picture_finish(places, &picture);
     return result;

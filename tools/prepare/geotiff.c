@@ -16,8 +16,15 @@ static bool write_georeference(GDALDatasetH dataset, const struct geotiff *g)
 {
     double transform[6] = {g->west_deg, g->pixel_width_deg,  0, g->north_deg,
                            0,           -g->pixel_height_deg};
+    if (g->projection) {
+        transform[0] = g->left_m;
+        transform[3] = g->top_m;
+        transform[1] = g->pixel_m;
+        transform[5] = -g->pixel_m;
+    }
     const OGRSpatialReferenceH srs = OSRNewSpatialReference(NULL);
-    const bool is_written = OSRImportFromEPSG(srs, 4326) == OGRERR_NONE &&
+    const char *system = g->projection ? g->projection : "EPSG:4326";
+    const bool is_written = OSRSetFromUserInput(srs, system) == OGRERR_NONE &&
                             GDALSetSpatialRef(dataset, srs) == CE_None &&
                             GDALSetGeoTransform(dataset, transform) == CE_None;
     OSRDestroySpatialReference(srs);

@@ -264,7 +264,11 @@ static trl_result write_globe(const struct globe *globe)
                         .pixel_height_deg = 180.0 / GLOBE_HEIGHT,
                         .pixels = globe->elevation,
                         .unit = "metre"};
+    const struct globe_values heights = {GLOBE_WIDTH, GLOBE_HEIGHT, 1, globe->elevation, NULL};
     trl_result result = geotiff_write(globe->places, &g);
+    if (result == TRL_OK) {
+        result = polar_prepare(globe->places, "earth", "elevation", &heights);
+    }
     if (result == TRL_OK) {
         g.name = "water.tif";
         g.kind = PIXEL_UINT8;

@@ -156,7 +156,7 @@ trl_result heights_undo_steps(const struct places *places, struct heights *heigh
 }
 
 trl_result heights_write(const struct places *places, const struct heights *heights,
-                         const char *name)
+                         const char *name, const char *polar_body)
 {
     const size_t cells = (size_t)heights->width * heights->height;
     int16_t *metres = mem_alloc(places->ctx, cells, sizeof *metres);
@@ -177,7 +177,11 @@ trl_result heights_write(const struct places *places, const struct heights *heig
                                     .pixel_height_deg = 180.0 / heights->height,
                                     .pixels = metres,
                                     .unit = "m"};
-    const trl_result result = geotiff_write(places, &geotiff);
+    trl_result result = geotiff_write(places, &geotiff);
+    if (result == TRL_OK && polar_body) {
+        const struct globe_values globe = {heights->width, heights->height, 1, metres, NULL};
+        result = polar_prepare(places, polar_body, "elevation", &globe);
+    }
     mem_free(places->ctx, metres);
     return result;
 }

@@ -22,11 +22,9 @@ static trl_result prepare_earth(const struct places *places)
 static const struct body {
     const char *name;
     trl_result (*prepare)(const struct places *places);
-} BODIES[] = {{"earth", prepare_earth},
-              {"mars", mars_prepare},
-              {"moon", moon_prepare},
-              {"titan", titan_prepare},
-              {"venus", venus_prepare}};
+} BODIES[] = {{"earth", prepare_earth}, {"earth-insets", earth_prepare_insets},
+              {"mars", mars_prepare},   {"moon", moon_prepare},
+              {"titan", titan_prepare}, {"venus", venus_prepare}};
 
 static const struct body *find_body(const char *name)
 {
@@ -42,7 +40,8 @@ int main(int argc, char **argv)
 {
     const struct body *body = find_body(argc == 4 ? argv[3] : "earth");
     if (argc < 3 || argc > 4 || !body) {
-        fprintf(stderr, "usage: prepare-data SOURCE_DIR OUT_DIR [earth|mars|moon|titan|venus]\n");
+        fprintf(stderr, "usage: prepare-data SOURCE_DIR OUT_DIR "
+                        "[earth|earth-insets|mars|moon|titan|venus]\n");
         return 2;
     }
     trl_context_desc desc = trl_context_desc_default();

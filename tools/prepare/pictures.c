@@ -76,6 +76,11 @@ static trl_result prepare_colour(const struct places *places)
     if (result == TRL_OK) {
         result = picture_write(places, "colour.tif", &picture);
     }
+    if (result == TRL_OK) {
+        const struct globe_values globe = {picture.width, picture.height, picture.bands, NULL,
+                                           picture.pixels};
+        result = polar_prepare(places, "earth", "colour", &globe);
+    }
     picture_finish(places, &picture);
     return result;
 }

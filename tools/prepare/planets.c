@@ -14,7 +14,7 @@ static trl_result prepare_mars_heights(const struct places *places)
     struct heights coarse = {0}, fine = {0};
     trl_result result = heights_read_grid(places, &grid, &coarse);
     if (result == TRL_OK && !source_exists(places, greys.file)) {
-        result = heights_write(places, &coarse, "elevation.tif");
+        result = heights_write(places, &coarse, "elevation.tif", "mars");
     } else if (result == TRL_OK) {
         result = heights_read_greys(places, &greys, &fine);
         if (result == TRL_OK && (fine.width != 2 * grid.width || fine.height != 2 * grid.height)) {
@@ -26,7 +26,7 @@ static trl_result prepare_mars_heights(const struct places *places)
             result = heights_undo_steps(places, &fine, greys.step_m, &coarse);
         }
         if (result == TRL_OK) {
-            result = heights_write(places, &fine, "elevation.tif");
+            result = heights_write(places, &fine, "elevation.tif", "mars");
         }
     }
     heights_finish(places, &coarse);
@@ -45,10 +45,13 @@ trl_result mars_prepare(const struct places *places)
                                    .latitude_deg = 60,
                                    .dark = {0.130, 0.087, 0.052},
                                    .bright = {0.263, 0.138, 0.062},
-                                   .white = {0.55, 0.50, 0.45}};
-    const trl_result result = prepare_mars_heights(places);
-    return result == TRL_OK && source_exists(places, map.file) ? albedo_prepare(places, &map)
-                                                               : result;
+                                   .white = {0.55, 0.50, 0.45},
+                                   .polar = "mars"};
+    trl_result result = prepare_mars_heights(places);
+    if (result == TRL_OK && source_exists(places, map.file)) {
+        result = albedo_prepare(places, &map);
+    }
+    return result == TRL_OK ? mars_prepare_insets(places) : result;
 }
 
 // Elevation above 1737.4 km. Maria and highlands have normal albedos of about 0.07 and 0.14 at
@@ -65,7 +68,7 @@ trl_result moon_prepare(const struct places *places)
     struct heights heights = {0};
     trl_result result = heights_read_grid(places, &grid, &heights);
     if (result == TRL_OK) {
-        result = heights_write(places, &heights, "elevation.tif");
+        result = heights_write(places, &heights, "elevation.tif", NULL);
     }
     heights_finish(places, &heights);
     return result == TRL_OK && source_exists(places, map.file) ? albedo_prepare(places, &map)
@@ -82,7 +85,7 @@ trl_result venus_prepare(const struct places *places)
         result = heights_undo_steps(places, &heights, greys.step_m, NULL);
     }
     if (result == TRL_OK) {
-        result = heights_write(places, &heights, "elevation.tif");
+        result = heights_write(places, &heights, "elevation.tif", NULL);
     }
     heights_finish(places, &heights);
     return result;

@@ -51,8 +51,8 @@ void picture_finish(const struct places *places, struct picture *picture);
 // Bilinear, wrapped east to west; u and v in [0, 1] from the north-west corner.
 double picture_sample(const struct picture *picture, uint32_t band, double u, double v);
 
-// What is written: a GeoTIFF in degrees, uncompressed so that it opens at the speed of the disk,
-// with overviews by averaging, whole or not at all.
+// What is written: a GeoTIFF in degrees, or in metres of a map projection, uncompressed so that it
+// opens at the speed of the disk, with overviews by averaging, whole or not at all.
 enum pixel_kind { PIXEL_UINT8, PIXEL_INT16, PIXEL_FLOAT };
 
 struct geotiff {
@@ -60,6 +60,9 @@ struct geotiff {
     uint32_t width, height, bands;
     enum pixel_kind kind;
     double west_deg, north_deg, pixel_width_deg, pixel_height_deg;
+    const char *projection; // NULL: degrees; else what OSRSetFromUserInput takes, and in place of
+                            // the four above:
+    double left_m, top_m, pixel_m;
     const void *pixels; // bands interleaved
     const char *unit;   // of the values, or NULL
 };
@@ -82,6 +85,39 @@ TRL_MUST_USE trl_result earth_prepare_globe(const struct places *places);
 TRL_MUST_USE trl_result earth_prepare_colorado(const struct places *places);
 // The best colour and night light pictures that are there.
 TRL_MUST_USE trl_result earth_prepare_pictures(const struct places *places);
+
+// A whole globe of one kind of number, column 0 at 180 W, row 0 at 90 N: one of the two arrays,
+// bands interleaved.
+struct globe_values {
+    uint32_t width, height, bands;
+    const int16_t *shorts;
+    const uint8_t *bytes;
+};
+
+// Writes NAME-north.tif and NAME-south.tif: the same about the poles in stereographic projection,
+// square, to 60 degrees of latitude in the middle of the sides, with pixels of two thirds of the
+// height of the globe's cells. Each is the mean of what it covers, so nothing of the globe's narrow
+// columns is left. `body` is earth or mars.
+TRL_MUST_USE trl_result polar_prepare(const struct places *places, const char *body,
+                                      const char *name, const struct globe_values *globe);
+
+// A model of a small area, opened as any raster is and written in longitude and latitude, as
+// floats, in the middle of a margin without data into which its rim can run out (docs/data.md).
+struct inset {
+    const char *file, *name;
+    uint32_t margin; // pixels
+};
+TRL_MUST_USE trl_result inset_prepare(const struct places *places, const struct inset *inset);
+
+// Insets of Earth that are there.
+TRL_MUST_USE trl_result earth_prepare_insets(const struct places *places);
+// The model in Gale crater and the colours over it, where they are there; after the globe's
+// colours.
+TRL_MUST_USE trl_result mars_prepare_insets(const struct places *places);
+
+// sRGB codes and light, 0 to 255 and 0 to 1.
+double light_of_code(double code);
+double code_of_light(double light);
 
 // Heights of a whole globe, column 0 at 180 W, row 0 at 90 N.
 struct heights {
@@ -115,8 +151,9 @@ TRL_MUST_USE trl_result heights_read_greys(const struct places *places, const st
 // has the true means of 2 x 2 cells.
 TRL_MUST_USE trl_result heights_undo_steps(const struct places *places, struct heights *heights,
                                            double step_m, const struct heights *coarse);
+// Where `polar_body` is not NULL, also about the poles.
 TRL_MUST_USE trl_result heights_write(const struct places *places, const struct heights *heights,
-                                      const char *name);
+                                      const char *name, const char *polar_body);
 
 // Pictures of the ground are not albedos: they are stretched, and taken through air. Each channel
 // is mapped linearly, in light, so that its 10th and 90th percentile by area between the latitudes
@@ -126,6 +163,7 @@ struct albedo_map {
     const char *file, *name;
     double latitude_deg; // percentiles are taken from here south to here north
     double dark[3], bright[3], white[3];
+    const char *polar; // the body, where the poles are to be written too; or NULL
 };
 TRL_MUST_USE trl_result albedo_prepare(const struct places *places, const struct albedo_map *map);
 
