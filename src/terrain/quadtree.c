@@ -309,8 +309,9 @@ static trl_result draw_leaves(struct quadtree *q, int level, const struct gpu_ta
 static trl_result draw(struct mesher *base, const struct gpu_target *target)
 {
     struct quadtree *q = (struct quadtree *)base;
-    const double pixel_rad = 2 * fmin(q->camera.tan_half_fov_y / target->height,
-                                      q->camera.tan_half_fov_x / target->width);
+    // A pixel's side; where pixels are not square, the root of its area.
+    const double pixel_rad = 2 * sqrt(q->camera.tan_half_fov_x / target->width *
+                                      q->camera.tan_half_fov_y / target->height);
     const double error_px = base->error_px > 0 ? base->error_px : DEFAULT_ERROR_PX;
     const double tolerance_rad = error_px * pixel_rad;
     trl_result result = quadtree_refine(&q->nodes, &q->camera, tolerance_rad, &q->leaves);

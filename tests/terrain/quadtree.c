@@ -4,7 +4,7 @@
 // a small planet with rolling land and an inset, cameras where tiles, faces and layers meet.
 #include "fixture.h"
 
-#include "terrain/quadtree_tiles.h"
+#include "terrain/quadtree_refine.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -285,6 +285,111 @@ static void test_it_draws_what_the_hemisphere_draws(void **state)
     destroy_planet(&p);
 }
 
+// A vertex on the border of a square, by its name.
+struct border_vertex {
+    struct tiles_point name;
+    struct vec3 at; // from the camera
+};
+
+static int compare_names(const void *a, const void *b)
+{
+    const struct tiles_point *p = &((const struct border_vertex *)a)->name;
+    const struct tiles_point *q = &((const struct border_vertex *)b)->name;
+    const int64_t difference = p->face != q->face ? p->face - q->face
+                               : p->y != q->y     ? p->y - q->y
+                                                  : p->x - q->x;
+    return (difference > 0) - (difference < 0);
+}
+
+// As the shader has it: between three grids, by the level there.
+static struct vec3 find_vertex(const struct quadtree_leaf *leaf, const struct quadtree_node *node,
+                               float grids[QUADTREE_SIDE][QUADTREE_GRIDS][QUADTREE_SIDE][4],
+                               const int32_t ij[2])
+{
+    const double fx = (double)ij[0] / QUADTREE_CELLS;
+    const double fy = (double)ij[1] / QUADTREE_CELLS;
+    const double lod = (1 - fy) * ((1 - fx) * leaf->lod[0] + fx * leaf->lod[1]) +
+                       fy * ((1 - fx) * leaf->lod[2] + fx * leaf->lod[3]) - (node->place.level - 2);
+    assert_true(lod > -1e-9 && lod < 2 + 1e-9);
+    const int first = lod > 1 ? 0 : 1; // of the two grids between which it is
+    const double weight = lod > 1 ? lod - 1 : lod;
+    double at[3];
+    for (int c = 0; c < 3; c++) {
+        at[c] = weight * (double)grids[ij[1]][first][ij[0]][c] +
+                (1 - weight) * (double)grids[ij[1]][first + 1][ij[0]][c];
+    }
+    return vec3_add(node->origin_m, (struct vec3){at[0], at[1], at[2]});
+}
+
+static size_t list_border(const struct quadtree_nodes *nodes, const struct quadtree_leaf *leaf,
+                          struct border_vertex *out)
+{
+    static float grids[QUADTREE_SIDE][QUADTREE_GRIDS][QUADTREE_SIDE][4];
+    const struct quadtree_node *node = &nodes->all[leaf->node];
+    const int64_t finest = (int64_t)QUADTREE_CELLS << TILES_MAX_LEVEL;
+    const int32_t up = TILES_MAX_LEVEL - node->place.level;
+    size_t count = 0;
+    quadtree_node_vertices(nodes, leaf->node, grids);
+    for (int32_t k = 0; k < 4 * QUADTREE_SIDE; k++) {
+        const int side = k / QUADTREE_SIDE;
+        const int32_t along = k % QUADTREE_SIDE;
+        if (leaf->is_coarser[side] && along % 2 == 1) {
+            continue; // gives way to the one before
+        }
+        const int32_t end = side % 2 == 1 ? QUADTREE_CELLS : 0;
+        const int32_t ij[2] = {side < 2 ? end : along, side < 2 ? along : end};
+        const struct tiles_point point = {node->place.face,
+                                          (node->place.x * QUADTREE_CELLS + ij[0]) << up,
+                                          (node->place.y * QUADTREE_CELLS + ij[1]) << up};
+        out[count++] = (struct border_vertex){tiles_point_name(&point, finest),
+                                              find_vertex(leaf, node, grids, ij)};
+    }
+    return count;
+}
+
+static void test_neighbours_draw_the_same_border(void **state)
+{
+    struct planet p;
+    make_planet(*state, TRL_MESHER_QUADTREE, &p);
+    struct quadtree_nodes nodes;
+    assert_int_equal(quadtree_nodes_init(&p.surface, &nodes), TRL_OK);
+    struct quadtree_leaves *leaves = malloc(sizeof *leaves);
+    struct border_vertex *border = malloc(sizeof *border * QUADTREE_MAX_LEAVES * 4 * QUADTREE_SIDE);
+    assert_true(leaves && border);
+    int shared = 0;
+    int levels = 0;
+    for (size_t i = 0; i < 3 * PLACE_COUNT; i++) {
+        static const double HEIGHTS[3] = {20, 3000, 2e5};
+        struct camera_place place = PLACES[i % PLACE_COUNT];
+        place.fov = 40;
+        place.pitch = -20;
+        const struct camera camera = place_camera(&p, place, HEIGHTS[i / PLACE_COUNT]);
+        assert_int_equal(quadtree_refine(&nodes, &camera, 3e-4, leaves), TRL_OK);
+        size_t count = 0;
+        for (uint32_t k = 0; k < leaves->count; k++) {
+            const struct quadtree_leaf *leaf = &leaves->all[k];
+            count += list_border(&nodes, leaf, border + count);
+            levels += leaf->is_coarser[0] || leaf->is_coarser[2];
+        }
+        qsort(border, count, sizeof *border, compare_names);
+        for (size_t k = 0; k + 1 < count; k++) {
+            if (compare_names(&border[k], &border[k + 1]) != 0) {
+                continue;
+            }
+            const double gap = vec3_length(vec3_sub(border[k].at, border[k + 1].at));
+            const double distance = vec3_length(vec3_sub(border[k].at, camera.position_m));
+            // Floats that count from the middles of squares, which may be as large as this.
+            assert_true(gap < 1e-6 * (distance + 1));
+            shared++;
+        }
+    }
+    assert_true(shared > 10000 && levels > 100);
+    free(border);
+    free(leaves);
+    quadtree_nodes_finish(&nodes);
+    destroy_planet(&p);
+}
+
 // The largest change of the ground between two pictures taken straight down from one place, in
 // pixels of the later one: altitudes of the first are looked up where its camera saw them.
 static double find_change_px(const float *before, const struct camera *old_camera,
@@ -436,6 +541,7 @@ int main(void)
         cmocka_unit_test(test_pixels_lie_on_the_ground),
         cmocka_unit_test(test_there_are_no_holes),
         cmocka_unit_test(test_it_draws_what_the_hemisphere_draws),
+        cmocka_unit_test(test_neighbours_draw_the_same_border),
         cmocka_unit_test(test_a_descent_shows_no_jump),
         cmocka_unit_test(test_a_camera_that_stays_makes_nothing_new),
         cmocka_unit_test(test_less_error_takes_more_triangles),
