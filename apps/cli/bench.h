@@ -37,6 +37,7 @@ trl_result bench_run_stream(const struct bench_job *job);
 trl_result bench_run_elek_precompute(const struct bench_job *job);
 trl_result bench_run_elek_fps(const struct bench_job *job);
 trl_result bench_run_elek_rgb(const struct bench_job *job);
+trl_result bench_run_schafhitzel_table1(const struct bench_job *job);
 trl_result bench_run_schafhitzel_table2(const struct bench_job *job);
 trl_result bench_run_santana_samples(const struct bench_job *job);
 trl_result bench_run_santana_spectrum(const struct bench_job *job);

@@ -97,6 +97,21 @@ class Bench(ProgramTest):
                 self.assertGreater(rows[case, "step"]["min"], 0.0)
         self.expect_failure(1, [*words, self.write_scene()], ["no ground", "make data"])
 
+    def test_planets_with_air_and_without(self):
+        (self.data / "h.tif").write_bytes(make_tiff(256, 128))
+        scene = add_layers({"name": "h", "elevation": "h.tif"})
+        words = ["bench", "schafhitzel-table1", "--json", "--runs", "1", "--scene"]
+        bench = json.loads(self.expect_success(*words, self.write_scene(scene)).stdout)
+        rows = {(row["case"], row["metric"]): row["median"] for row in bench["rows"]}
+        for view in ["ground", "orbit"]:
+            for metric in ["whole scene, 1024 x 576", "triangles", "with air", "without air"]:
+                self.assertGreater(rows[view, metric], 0)
+            cost = 100 * (1 - rows[view, "with air"] / rows[view, "without air"])
+            self.assertAlmostEqual(rows[view, "the air takes"], cost, places=3)
+        self.assertIn("15 %", " ".join(bench["notes"]))
+        # The sphere alone is no terrain.
+        self.expect_failure(1, [*words, self.write_scene(name="bare.json")], ["no ground", "make data"])
+
     def test_table_of_a_paper(self):
         table, = self.measure("schafhitzel-table2")
         self.assertIn("Table 2", table["source"])
