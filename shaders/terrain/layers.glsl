@@ -47,7 +47,17 @@ const int LAYER_VECTORS = 4;
 #endif
 // clang-format on
 
+// What heights need besides, since a float of the whole raster would be off by decimetres on the
+// ground, and one of the whole range of heights by millimetres:
+//     place   texture coordinates of the anchor: whole 1024ths, and what is left
+//     unit    how many steps a texture's 1 stands for (0: it holds units as they are); the height
+//             that is subtracted from all, in steps; its altitude, m; metres of a step
+struct LayerNear {
+    vec4 place, unit;
+};
+
 #if ELEVATION_COUNT > 0
+uniform vec4 u_elevation_near[8];
 uniform vec4 u_elevation[4 * LAYER_VECTORS];
 uniform vec4 u_elevation_modes; // of shared/blend.glsl
 uniform sampler2D u_elevation0;
@@ -109,17 +119,22 @@ vec2 layer_map_round(LayerFrame frame, vec2 geo)
     return vec2(east, frame.place.y + geo.y);
 }
 
+// Map coordinates from the anchor's, of a stereographic layer.
+#ifdef HAS_POLAR
+vec2 layer_map_polar(vec4 turn, Ground g)
+{
+    float pole = turn.z < 0.0 ? -1.0 : 1.0;
+    MapOffset m =
+        projection_stereographic(g.axis, u_anchor.x, u_anchor.y, pole, turn.w, abs(turn.z));
+    return vec2(m.x * turn.x + m.y * turn.y, pole * (m.y * turn.x - m.x * turn.y));
+}
+#endif
+
 vec2 layer_map(LayerFrame frame, Ground g)
 {
     vec2 map = layer_map_round(frame, g.geo);
 #ifdef HAS_POLAR
-    vec4 turn = frame.turn;
-    float pole = turn.z < 0.0 ? -1.0 : 1.0;
-    MapOffset m =
-        projection_stereographic(g.axis, u_anchor.x, u_anchor.y, pole, turn.w, abs(turn.z));
-    vec2 plane =
-        frame.place.xy + vec2(m.x * turn.x + m.y * turn.y, pole * (m.y * turn.x - m.x * turn.y));
-    map = turn.z != 0.0 ? plane : map;
+    map = frame.turn.z != 0.0 ? frame.place.xy + layer_map_polar(frame.turn, g) : map;
 #endif
     return map;
 }
@@ -137,6 +152,33 @@ vec3 layer_locate(LayerFrame frame, Ground g)
     float inside = min(shape.x - abs(map.x), min(shape.y - map.y, shape.z + map.y));
     float t = clamp(inside * shape.w, 0.0, 1.0);
     return vec3(layer_uv(frame, map), t * t * (3.0 - 2.0 * t));
+}
+
+// Texture coordinates that are known to a part of the distance from the anchor: whole 1024ths, and
+// the rest, which is small near the anchor.
+struct LayerPoint {
+    ivec2 coarse;
+    vec2 fine;
+};
+
+LayerPoint layer_point(LayerFrame frame, LayerNear near, Ground g)
+{
+    vec2 away = g.geo; // on the map, from the anchor
+    float turns = floor((frame.place.x + away.x) / (2.0 * LAYER_PI) + 0.5);
+#ifdef HAS_POLAR
+    away = frame.turn.z != 0.0 ? layer_map_polar(frame.turn, g) : away;
+    turns = frame.turn.z != 0.0 ? 0.0 : turns;
+#endif
+    bool is_round = frame.shape.x > 4.0;
+    vec2 fine = near.place.zw + vec2(away.x, -away.y) * frame.place.zw;
+    fine.x -= is_round ? 0.0 : turns * 2.0 * LAYER_PI * frame.place.z;
+    float u = near.place.x / 1024.0 + fine.x;
+    return LayerPoint(ivec2(near.place.xy) - ivec2(is_round ? 1024 * int(floor(u)) : 0, 0), fine);
+}
+
+vec2 layer_point_uv(LayerPoint point)
+{
+    return vec2(point.coarse) / 1024.0 + point.fine;
 }
 
 // textureSize(heights, level), which llvmpipe answers for one level for all pixels of a vector.
@@ -162,36 +204,63 @@ float layer_texel(sampler2D heights, vec4 shape, ivec2 p, int level)
 
 // A place on a level, as texels of the texture that holds it.
 struct LayerTexels {
-    vec2 at;   // (0, 0) is the first one's middle
-    int level; // of the texture
+    ivec2 base; // (0, 0) is the first one's middle
+    vec2 at;    // from the base
+    int level;  // of the texture
     vec4 shape;
 };
 
+LayerTexels layer_texels_near(sampler2D heights, LayerFrame frame, LayerPoint point, int level)
+{
+    ivec2 size = layer_size(heights, level);
+    ivec2 whole = point.coarse * size;
+    LayerTexels t = LayerTexels(whole >> 10, vec2(whole & 1023) / 1024.0 + point.fine * vec2(size),
+                                level, frame.shape);
+#ifdef HAS_PAGES
+    // Tiles have their neighbours' texels, so that nothing turns around or over a pole.
+    if (page_is_used(frame.paging)) {
+        Page page = page_find(frame.paging, layer_point_uv(point), level);
+        whole = point.coarse * page.size;
+        t = LayerTexels((whole >> 10) - page.corner + page.origin,
+                        vec2(whole & 1023) / 1024.0 + point.fine * vec2(page.size), 0, vec4(0.0));
+    }
+#endif
+    t.at -= 0.5;
+    return t;
+}
+
 LayerTexels layer_texels(sampler2D heights, LayerFrame frame, vec2 uv, int level)
 {
-    LayerTexels t = LayerTexels(uv * vec2(layer_size(heights, level)) - 0.5, level, frame.shape);
+    LayerTexels t =
+        LayerTexels(ivec2(0), uv * vec2(layer_size(heights, level)) - 0.5, level, frame.shape);
 #ifdef HAS_PAGES
     // Tiles have their neighbours' texels, so that nothing turns around or over a pole.
     if (page_is_used(frame.paging)) {
         vec2 place = vec2(frame.shape.x > 4.0 ? fract(uv.x) : uv.x, uv.y);
-        t = LayerTexels(page_texel(frame.paging, place, level) - 0.5, 0, vec4(0.0));
+        t = LayerTexels(ivec2(0), page_texel(frame.paging, place, level) - 0.5, 0, vec4(0.0));
     }
 #endif
     return t;
 }
 
-float layer_cubic(sampler2D heights, LayerFrame frame, vec2 uv, int level)
+// A texel in steps above the anchor's ground: whole numbers come out of the texture as such.
+float layer_step(sampler2D heights, LayerTexels t, vec4 unit, ivec2 p)
 {
-    LayerTexels t = layer_texels(heights, frame, uv, level);
+    float value = layer_texel(heights, t.shape, p, t.level);
+    return (unit.x > 0.0 ? floor(value * unit.x + 0.5) : value) - unit.y;
+}
+
+float layer_cubic(sampler2D heights, LayerTexels t, vec4 unit)
+{
     vec2 base = floor(t.at);
     vec2 f = t.at - base;
-    ivec2 corner = ivec2(base) - 1;
+    ivec2 corner = t.base + ivec2(base) - 1;
     float rows[4];
     for (int j = 0; j < 4; j++) {
-        rows[j] = cubic_blend(f.x, layer_texel(heights, t.shape, corner + ivec2(0, j), t.level),
-                              layer_texel(heights, t.shape, corner + ivec2(1, j), t.level),
-                              layer_texel(heights, t.shape, corner + ivec2(2, j), t.level),
-                              layer_texel(heights, t.shape, corner + ivec2(3, j), t.level));
+        rows[j] = cubic_blend(f.x, layer_step(heights, t, unit, corner + ivec2(0, j)),
+                              layer_step(heights, t, unit, corner + ivec2(1, j)),
+                              layer_step(heights, t, unit, corner + ivec2(2, j)),
+                              layer_step(heights, t, unit, corner + ivec2(3, j)));
     }
     return cubic_blend(f.y, rows[0], rows[1], rows[2], rows[3]);
 }
@@ -224,7 +293,7 @@ float layer_bilinear(sampler2D heights, LayerFrame frame, vec2 uv, int level)
 {
     LayerTexels t = layer_texels(heights, frame, uv, level);
     vec2 base = floor(t.at);
-    ivec2 p = ivec2(base);
+    ivec2 p = t.base + ivec2(base);
     float a = layer_texel(heights, t.shape, p, t.level);
     float b = layer_texel(heights, t.shape, p + ivec2(1, 0), t.level);
     float c = layer_texel(heights, t.shape, p + ivec2(0, 1), t.level);
@@ -257,16 +326,17 @@ float layer_blend(float mode, float below, float value, float weight)
 }
 
 // Lays a layer over `altitude`, smooth where its texels are larger than the footprint.
-float layer_over_cubic(float altitude, sampler2D heights, LayerFrame frame, float mode, Ground g,
-                       float log2_footprint)
+float layer_over_cubic(float altitude, sampler2D heights, LayerFrame frame, LayerNear near,
+                       float mode, Ground g, float log2_footprint)
 {
-    vec3 at = layer_locate(frame, g);
+    LayerPoint point = layer_point(frame, near, g);
     float lod = max(log2_footprint - frame.texel.z, 0.0);
-    float level = floor(lod);
-    float low = layer_cubic(heights, frame, at.xy, int(level));
-    float high = layer_cubic(heights, frame, at.xy, int(level) + (lod > level ? 1 : 0));
-    float value = frame.texel.w + frame.texel.x * mix(low, high, lod - level);
-    return layer_blend(mode, altitude, value, at.z);
+    int level = int(floor(lod));
+    int next = level + (lod > floor(lod) ? 1 : 0);
+    float low = layer_cubic(heights, layer_texels_near(heights, frame, point, level), near.unit);
+    float high = layer_cubic(heights, layer_texels_near(heights, frame, point, next), near.unit);
+    float value = near.unit.z + near.unit.w * mix(low, high, lod - floor(lod));
+    return layer_blend(mode, altitude, value, layer_locate(frame, g).z);
 }
 
 float layer_over_linear(float altitude, sampler2D heights, LayerFrame frame, float mode, Ground g,
@@ -279,26 +349,27 @@ float layer_over_linear(float altitude, sampler2D heights, LayerFrame frame, flo
 }
 
 #define ELEVATION_FRAME(i) LAYER_FRAME(u_elevation, i)
+#define ELEVATION_NEAR(i) LayerNear(u_elevation_near[2 * i], u_elevation_near[2 * i + 1])
 
 // Metres above the sphere, as all layers together say it, over what lies below them.
 float layers_altitude(float below, Ground g, float log2_footprint)
 {
     float h = below;
 #if ELEVATION_COUNT > 0
-    h = layer_over_cubic(h, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x, g,
-                         log2_footprint);
+    h = layer_over_cubic(h, u_elevation0, ELEVATION_FRAME(0), ELEVATION_NEAR(0),
+                         u_elevation_modes.x, g, log2_footprint);
 #endif
 #if ELEVATION_COUNT > 1
-    h = layer_over_cubic(h, u_elevation1, ELEVATION_FRAME(1), u_elevation_modes.y, g,
-                         log2_footprint);
+    h = layer_over_cubic(h, u_elevation1, ELEVATION_FRAME(1), ELEVATION_NEAR(1),
+                         u_elevation_modes.y, g, log2_footprint);
 #endif
 #if ELEVATION_COUNT > 2
-    h = layer_over_cubic(h, u_elevation2, ELEVATION_FRAME(2), u_elevation_modes.z, g,
-                         log2_footprint);
+    h = layer_over_cubic(h, u_elevation2, ELEVATION_FRAME(2), ELEVATION_NEAR(2),
+                         u_elevation_modes.z, g, log2_footprint);
 #endif
 #if ELEVATION_COUNT > 3
-    h = layer_over_cubic(h, u_elevation3, ELEVATION_FRAME(3), u_elevation_modes.w, g,
-                         log2_footprint);
+    h = layer_over_cubic(h, u_elevation3, ELEVATION_FRAME(3), ELEVATION_NEAR(3),
+                         u_elevation_modes.w, g, log2_footprint);
 #endif
     return h;
 }

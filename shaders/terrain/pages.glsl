@@ -22,8 +22,14 @@ ivec2 page_size(vec4 paging, int level)
     return (ivec2(paging.xy) + (1 << level) - 1) >> level;
 }
 
-// A place of the layer (0 to 1, and less than a texel outside) in texels of the atlas.
-vec2 page_texel(vec4 paging, vec2 uv, int level)
+// Where the texels of a place are: the size of the level that was found, and the corner of its tile
+// in that and in the atlas.
+struct Page {
+    ivec2 size, corner, origin;
+};
+
+// `uv`: from 0 to 1, and less than a texel outside.
+Page page_find(vec4 paging, vec2 uv, int level)
 {
     int rows = int(paging.w);
     level = clamp(level, 0, int(32.0 * fract(paging.w) + 0.5));
@@ -34,6 +40,12 @@ vec2 page_texel(vec4 paging, vec2 uv, int level)
     int found = int(entry.z);
     // An ancestor has all texels of the tile, up to one of its own further on.
     ivec2 corner = (tile >> (found - level)) * PAGE_TILE;
-    vec2 local = uv * vec2(page_size(paging, found)) - vec2(corner);
-    return entry.xy * float(PAGE_SIDE) + float(PAGE_BORDER) + local;
+    return Page(page_size(paging, found), corner, ivec2(entry.xy) * PAGE_SIDE + PAGE_BORDER);
+}
+
+// A place in texels of the atlas.
+vec2 page_texel(vec4 paging, vec2 uv, int level)
+{
+    Page page = page_find(paging, uv, level);
+    return uv * vec2(page.size) - vec2(page.corner) + vec2(page.origin);
 }

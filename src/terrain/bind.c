@@ -6,6 +6,7 @@
 #include "shared/blend.glsl"
 #include "terrain/stream.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static const char *const KIND_DEFINES[SURFACE_KIND_COUNT] = {
@@ -78,6 +79,43 @@ struct binding {
     const struct anchor *anchor;
 };
 
+// u_elevation_near of one layer. Heights count from what is about the ground below the anchor.
+static void describe_near(const struct terrain_layer *layer, const struct anchor *anchor,
+                          double ground_m, float rows[2][4])
+{
+    const struct layer_view view =
+        layer_view_from(layer_finest_frame(layer), anchor->latitude_rad, anchor->longitude_rad);
+    const double uv[2] = {0.5 + view.place[0] * view.place[2], 0.5 - view.place[1] * view.place[3]};
+    for (int i = 0; i < 2; i++) {
+        // Far from the raster no digits matter, and the shader's integers end.
+        const double place = fmax(-3, fmin(4, uv[i]));
+        rows[0][i] = (float)floor(1024 * place + 0.5);
+        rows[0][2 + i] = (float)(uv[i] - (double)rows[0][i] / 1024);
+    }
+    const double steps = layer->texture_steps;
+    const double step_m = steps > 0 ? layer->texture_scale_m / steps : layer->texture_scale_m;
+    const double base = floor((ground_m - layer->texture_offset_m) / step_m + 0.5);
+    rows[1][0] = (float)steps;
+    rows[1][1] = (float)base;
+    rows[1][2] = (float)(layer->texture_offset_m + (double)rows[1][1] * step_m);
+    rows[1][3] = (float)step_m;
+}
+
+static void bind_near(const struct binding *binding, struct gpu_program *program)
+{
+    const struct surface_selection *selection = binding->selection;
+    const double ground_m = surface_altitude(binding->surface, binding->anchor->up);
+    float rows[2 * SURFACE_SEEN_LAYERS][4] = {0};
+    for (size_t i = 0; i < selection->counts[SURFACE_ELEVATION]; i++) {
+        const size_t index = selection->indices[SURFACE_ELEVATION][i];
+        describe_near(&binding->surface->layers[SURFACE_ELEVATION][index], binding->anchor,
+                      ground_m, &rows[2 * i]);
+    }
+    if (selection->counts[SURFACE_ELEVATION] > 0) {
+        gpu_program_set_vec4s(program, "u_elevation_near", rows[0], 2 * SURFACE_SEEN_LAYERS);
+    }
+}
+
 static void bind_kind(const struct binding *binding, enum surface_kind kind,
                       struct gpu_program *program)
 {
@@ -114,6 +152,7 @@ void surface_bind(const struct surface *surface, const struct surface_selection 
         gpu_program_set_texture(program, "u_pages", &surface->stream->atlas.pages);
     }
     const struct binding binding = {surface, selection, anchor};
+    bind_near(&binding, program);
     for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
         bind_kind(&binding, (enum surface_kind)k, program);
     }

@@ -322,6 +322,7 @@ void layer_scale_texture(const struct gpu *gpu, struct terrain_layer *layer)
 {
     const struct layer_heights *h = &layer->heights;
     const bool is_norm = h->shorts && gpu->caps.has_norm16;
+    layer->texture_steps = is_norm ? UINT16_MAX : 0;
     layer->texture_scale_m = is_norm ? UINT16_MAX * h->scale : h->scale;
     layer->texture_offset_m = h->offset_m + (is_norm ? INT16_MIN * h->scale : 0);
 }

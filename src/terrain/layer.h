@@ -32,6 +32,7 @@ struct terrain_layer {
     struct gpu_texture texture;
     // Of elevation layers: metres are this times what the texture holds, and this more.
     double texture_scale_m, texture_offset_m;
+    double texture_steps; // whole numbers that its 0 to 1 stands for; 0: it holds units as they are
 };
 
 // Metres at a texel; columns wrap around and rows run over a pole where the layer does.
