@@ -12,6 +12,9 @@ uniform vec3 u_forward;            // in the local frame
 
 layout(location = 0) out vec4 o_seen;
 
+// What heights are uncertain by, as floats of kilometres: seen from nearby it would look like relief.
+const float ROUNDING_M = 0.001;
+
 vec2 find_probe(ivec2 p)
 {
     float h = texelFetch(u_probes, p, 0).y;
@@ -46,7 +49,8 @@ void main()
     vec2 before = find_probe(ivec2(p.x, max(p.y - 1, 0)));
     vec2 after = find_probe(ivec2(p.x, min(p.y + 1, last)));
     float t = clamp((at.x - before.x) / max(after.x - before.x, 1e-6), 0.0, 1.0);
-    float sag = abs(mix(before.y, after.y, t) - at.y) * sin(probe.x) / max(length(at), 1e-3);
+    float sag_m = max(abs(mix(before.y, after.y, t) - at.y) - ROUNDING_M, 0.0);
+    float sag = sag_m * sin(probe.x) / max(length(at), 1e-3);
     bool is_seen = probe.x >= hidden && probe.x > column.z - 0.01 && probe.x < column.w + 0.01;
     o_seen = vec4(scale * seen, is_seen ? scale * scale * sag * sag : 0.0,
                   seen > 0.0 ? probe.y : 1e9, 0.0);
