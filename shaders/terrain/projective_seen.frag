@@ -12,7 +12,8 @@ uniform vec3 u_forward;            // in the local frame
 
 layout(location = 0) out vec4 o_seen;
 
-// What heights are uncertain by, as floats of kilometres: seen from nearby it would look like relief.
+// What heights are uncertain by, as floats of kilometres: seen from nearby it would look like
+// relief.
 const float ROUNDING_M = 0.001;
 
 vec2 find_probe(ivec2 p)
