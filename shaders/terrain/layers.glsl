@@ -4,9 +4,9 @@
 // difference in longitude and latitude, in radians. Needs ELEVATION_COUNT, COLOUR_COUNT,
 // WATER_COUNT, LIGHTS_COUNT, NORMAL_COUNT (0 to 4); NO_FLOAT_LINEAR where 32F textures are not
 // filtered; HAS_POLAR where a layer is stereographic; HAS_MODES where one does more than cover;
-// HAS_PAGES where one is held in tiles; HAS_NOISE where noise goes on below the layers, HAS_GROUND
-// where it is the ground below them, HAS_BIOMES where that has colours. The C side is
-// src/terrain/bind.c.
+// HAS_GAPS where one has gaps; HAS_PAGES where one is held in tiles; HAS_NOISE where noise goes on
+// below the layers, HAS_GROUND where it is the ground below them, HAS_BIOMES where that has
+// colours. The C side is src/terrain/bind.c.
 #ifdef HAS_BIOMES
 #define HAS_GROUND
 #endif
@@ -60,6 +60,7 @@ struct LayerNear {
 uniform vec4 u_elevation_near[8];
 uniform vec4 u_elevation[4 * LAYER_VECTORS];
 uniform vec4 u_elevation_modes; // of shared/blend.glsl
+uniform vec4 u_elevation_gaps;  // 1: the texture's y is log2 of how coarse gaps are
 uniform sampler2D u_elevation0;
 #endif
 #if ELEVATION_COUNT > 1

@@ -55,9 +55,10 @@ MapAxes layer_axes(LayerFrame frame, Tangent t)
 
 // The slope of a layer, as a tangent vector, laid over those below; w: log2 of a texel's height in
 // m. Steps are half a texel of the level that is seen, alike in metres: over a linear filter that
-// is the continuous slope of a quadratic spline. `height` is that of the layers so far.
-vec4 layer_over_slope(vec4 below, sampler2D heights, LayerFrame frame, float mode, Tangent t,
-                      inout float height)
+// is the continuous slope of a quadratic spline. `height` is that of the layers so far; `gap` is 1
+// where the texture also says how coarse the model is in gaps.
+vec4 layer_over_slope(vec4 below, sampler2D heights, LayerFrame frame, float mode, float gap,
+                      Tangent t, inout float height)
 {
     vec3 at = layer_locate(frame, t.ground);
     float lod = max(t.log2_footprint - frame.texel.z, 0.0);
@@ -91,7 +92,13 @@ vec4 layer_over_slope(vec4 below, sampler2D heights, LayerFrame frame, float mod
                   blend_slope(mode, height, value, below.z, vector.z));
     height = blend_layers(mode, height, value, at.z);
 #endif
-    return mix(below, vec4(vector, frame.texel.z), at.z);
+    float log2_texel = frame.texel.z;
+#ifdef HAS_GAPS
+    // In a gap it is known more coarsely, but not more than what is below.
+    float coarser = gap > 0.5 ? textureLod(heights, at.xy, lod).y : 0.0;
+    log2_texel = coarser > 0.0 ? min(log2_texel + coarser, max(below.w, log2_texel)) : log2_texel;
+#endif
+    return mix(below, vec4(vector, log2_texel), at.z);
 }
 
 const float SLOPE_NO_DATA = 30.0; // log2 of a texel in m: larger than any planet
@@ -102,20 +109,20 @@ vec4 layers_slope(vec4 below, float below_height, Tangent t)
     vec4 slope = below;
     float height = below_height;
 #if ELEVATION_COUNT > 0
-    slope =
-        layer_over_slope(slope, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x, t, height);
+    slope = layer_over_slope(slope, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x,
+                             u_elevation_gaps.x, t, height);
 #endif
 #if ELEVATION_COUNT > 1
-    slope =
-        layer_over_slope(slope, u_elevation1, ELEVATION_FRAME(1), u_elevation_modes.y, t, height);
+    slope = layer_over_slope(slope, u_elevation1, ELEVATION_FRAME(1), u_elevation_modes.y,
+                             u_elevation_gaps.y, t, height);
 #endif
 #if ELEVATION_COUNT > 2
-    slope =
-        layer_over_slope(slope, u_elevation2, ELEVATION_FRAME(2), u_elevation_modes.z, t, height);
+    slope = layer_over_slope(slope, u_elevation2, ELEVATION_FRAME(2), u_elevation_modes.z,
+                             u_elevation_gaps.z, t, height);
 #endif
 #if ELEVATION_COUNT > 3
-    slope =
-        layer_over_slope(slope, u_elevation3, ELEVATION_FRAME(3), u_elevation_modes.w, t, height);
+    slope = layer_over_slope(slope, u_elevation3, ELEVATION_FRAME(3), u_elevation_modes.w,
+                             u_elevation_gaps.w, t, height);
 #endif
     return slope;
 }

@@ -26,7 +26,7 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
                          struct surface_defines *out)
 {
     *out = (struct surface_defines){.count = 0};
-    bool has_polar = false, has_modes = false;
+    bool has_polar = false, has_modes = false, has_gaps = false;
     for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
         char text[SURFACE_DEFINE_LENGTH];
         const size_t count =
@@ -36,6 +36,7 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
         for (size_t i = 0; i < surface->counts[k]; i++) {
             has_polar = has_polar || surface->layers[k][i].frame.pole != 0;
             has_modes = has_modes || surface->layers[k][i].mode != BLEND_OVER;
+            has_gaps = has_gaps || surface->layers[k][i].heights.coarser;
         }
     }
     if (!surface->gpu->caps.has_float_linear) {
@@ -46,6 +47,9 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
     }
     if (has_modes) {
         add_define(out, "HAS_MODES");
+    }
+    if (has_gaps) {
+        add_define(out, "HAS_GAPS");
     }
     if (surface->stream) {
         add_define(out, "HAS_PAGES");
@@ -123,12 +127,13 @@ static void bind_kind(const struct binding *binding, enum surface_kind kind,
     const struct surface_selection *selection = binding->selection;
     const size_t row_count = surface->stream ? FRAME_ROWS : FRAME_ROWS - 1;
     float rows[SURFACE_SEEN_LAYERS * FRAME_ROWS][4] = {0};
-    float modes[4] = {0};
+    float modes[4] = {0}, gaps[4] = {0};
     char name[32];
     for (size_t i = 0; i < selection->counts[kind]; i++) {
         const struct terrain_layer *layer = &surface->layers[kind][selection->indices[kind][i]];
         describe_layer(layer, binding->anchor, surface->radius_m, &rows[i * row_count]);
         modes[i] = (float)layer->mode;
+        gaps[i] = layer->heights.coarser ? 1.0f : 0.0f;
         snprintf(name, sizeof name, "%s%zu", KIND_UNIFORMS[kind], i);
         gpu_program_set_texture(program, name,
                                 layer->tiles ? stream_texture(layer->stream, layer->tiles)
@@ -139,6 +144,8 @@ static void bind_kind(const struct binding *binding, enum surface_kind kind,
                               SURFACE_SEEN_LAYERS * row_count);
         snprintf(name, sizeof name, "%s_modes", KIND_UNIFORMS[kind]);
         gpu_program_set_vec4(program, name, modes);
+        snprintf(name, sizeof name, "%s_gaps", KIND_UNIFORMS[kind]);
+        gpu_program_set_vec4(program, name, gaps);
     }
 }
 

@@ -45,6 +45,22 @@ const struct layer_frame *layer_finest_frame(const struct terrain_layer *layer)
     return layer->tiles ? &layer->tiles->frame : &layer->frame;
 }
 
+double layer_coarser(const struct terrain_layer *layer, double x, double y)
+{
+    const uint8_t *coarser = layer->heights.coarser;
+    if (!coarser) {
+        return 0;
+    }
+    const int64_t column = (int64_t)floor(x), row = (int64_t)floor(y);
+    const double fx = x - (double)column, fy = y - (double)row;
+    double sum = 0;
+    for (int k = 0; k < 4; k++) {
+        const double weight = (k % 2 ? fx : 1 - fx) * (k / 2 ? fy : 1 - fy);
+        sum += weight * coarser[layer_texel_index(&layer->frame, column + k % 2, row + k / 2)];
+    }
+    return sum / LAYER_COARSER_STEPS;
+}
+
 double layer_sample(const struct terrain_layer *layer, double x, double y)
 {
     return layer->tiles ? stream_sample(layer->stream, layer->tiles, x, y)
@@ -321,10 +337,35 @@ static trl_result upload_levels(struct terrain_layer *layer, const struct texels
 void layer_scale_texture(const struct gpu *gpu, struct terrain_layer *layer)
 {
     const struct layer_heights *h = &layer->heights;
-    const bool is_norm = h->shorts && gpu->caps.has_norm16;
+    const bool is_norm = h->shorts && !h->coarser && gpu->caps.has_norm16;
     layer->texture_steps = is_norm ? UINT16_MAX : 0;
     layer->texture_scale_m = is_norm ? UINT16_MAX * h->scale : h->scale;
     layer->texture_offset_m = h->offset_m + (is_norm ? INT16_MIN * h->scale : 0);
+}
+
+// Heights, and how coarse they are, side by side.
+static trl_result upload_with_gaps(struct gpu *gpu, struct gpu_texture_desc desc,
+                                   struct terrain_layer *layer)
+{
+    const struct layer_heights *h = &layer->heights;
+    const size_t count = (size_t)layer->frame.width * layer->frame.height;
+    float *pairs = mem_alloc(layer->ctx, 2 * count, sizeof *pairs);
+    if (!pairs) {
+        return TRL_ERROR_MEMORY;
+    }
+    for (size_t i = 0; i < count; i++) {
+        pairs[2 * i] = h->shorts ? (float)h->shorts[i] : h->floats[i];
+        pairs[2 * i + 1] = (float)h->coarser[i] / LAYER_COARSER_STEPS;
+    }
+    desc.format = GPU_FORMAT_RG32F;
+    const struct texels texels = {
+        .floats = pairs, .width = layer->frame.width, .height = layer->frame.height, .channels = 2};
+    trl_result result = gpu_texture_init(gpu, &desc, &layer->texture);
+    if (result == TRL_OK) {
+        result = upload_levels(layer, &texels);
+    }
+    mem_free(layer->ctx, pairs);
+    return result;
 }
 
 trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer)
@@ -334,12 +375,15 @@ trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer)
     }
     const struct layer_heights *h = &layer->heights;
     struct gpu_texture_desc desc = describe_texture(&layer->frame);
-    const bool is_norm = h->shorts && gpu->caps.has_norm16;
+    const bool is_norm = h->shorts && !h->coarser && gpu->caps.has_norm16;
     layer_scale_texture(gpu, layer);
     desc.label = "elevation";
     desc.format = is_norm ? GPU_FORMAT_R16 : GPU_FORMAT_R32F;
     if (!is_norm && !gpu->caps.has_float_linear) {
         desc.filter = GPU_FILTER_NEAREST; // terrain/layers.glsl filters by itself
+    }
+    if (h->coarser) {
+        return upload_with_gaps(gpu, desc, layer);
     }
     const struct texels texels = {.shorts = h->shorts,
                                   .floats = h->floats,
@@ -442,6 +486,7 @@ void layer_finish(struct terrain_layer *layer)
     if (layer->ctx) {
         mem_free(layer->ctx, layer->heights.shorts);
         mem_free(layer->ctx, layer->heights.floats);
+        mem_free(layer->ctx, layer->heights.coarser);
         mem_free(layer->ctx, layer->roots);
         if (!layer->tiles) {
             gpu_texture_finish(&layer->texture);

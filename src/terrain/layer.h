@@ -10,10 +10,15 @@
 #include "gpu/texture.h"
 #include "terrain/frame.h"
 
+enum { LAYER_COARSER_STEPS = 12 };
+
 // Heights on the CPU: one of the two arrays, in units of `scale` from `offset_m`.
 struct layer_heights {
     int16_t *shorts; // owned
     float *floats;   // owned
+    // Owned; by how much coarser than its texels the layer is in gaps, as a logarithm to base 2 in
+    // steps of 1 / LAYER_COARSER_STEPS. NULL: it has none.
+    uint8_t *coarser;
     double scale, offset_m;
 };
 
@@ -40,6 +45,10 @@ double layer_texel(const struct terrain_layer *layer, int64_t x, int64_t y);
 
 // Sets what one texel holds, as near as its type allows.
 void layer_set_texel(struct layer_heights *heights, size_t index, double metres);
+
+// log2 of how much coarser than its texels it is at a place, linear between texels: 0 where the
+// file has data.
+double layer_coarser(const struct terrain_layer *layer, double x, double y);
 
 // Metres, with the cubic of shared/cubic.glsl: of the finest texels that there are, and of those
 // that are held here.

@@ -70,6 +70,9 @@ static trl_result take_elevation(struct loader *loader, const struct surface_lay
     trl_result result = load_set_scale(loader, desc, layer);
     if (result == TRL_OK) {
         result = layer_take_heights(&p->raster, p->whole[p->base_level], &below, layer);
+        // Tiles hold nothing but heights.
+        mem_free(layer->ctx, layer->heights.coarser);
+        layer->heights.coarser = NULL;
     }
     if (result == TRL_OK) {
         result = load_raise_sea(loader, layer);

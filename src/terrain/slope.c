@@ -68,13 +68,17 @@ void slope_lay_over(const struct terrain_layer *layer, struct vec3 up, double ra
     if (!(place.weight > 0)) {
         return;
     }
-    const struct vec3 own = vec3_scale(find_slope(layer, &place, up), 1 / radius_m);
+    const struct vec3 tilt = vec3_scale(find_slope(layer, &place, up), 1 / radius_m);
     const double height = sample_linear(layer, place.x, place.y);
     const double mode = layer->mode;
-    const struct vec3 whole = {blend_slope(mode, s->height_m, height, s->slope.x, own.x),
-                               blend_slope(mode, s->height_m, height, s->slope.y, own.y),
-                               blend_slope(mode, s->height_m, height, s->slope.z, own.z)};
+    const struct vec3 whole = {blend_slope(mode, s->height_m, height, s->slope.x, tilt.x),
+                               blend_slope(mode, s->height_m, height, s->slope.y, tilt.y),
+                               blend_slope(mode, s->height_m, height, s->slope.z, tilt.z)};
     s->slope = vec3_add(s->slope, vec3_scale(vec3_sub(whole, s->slope), place.weight));
     s->height_m = blend_layers(mode, s->height_m, height, place.weight);
-    s->log2_texel += place.weight * (log2(f->texel_height * radius_m) - s->log2_texel);
+    // In a gap it is known more coarsely, but not more than what is below.
+    const double own = log2(f->texel_height * radius_m);
+    const double texel =
+        fmin(own + layer_coarser(layer, place.x, place.y), fmax(s->log2_texel, own));
+    s->log2_texel += place.weight * (texel - s->log2_texel);
 }

@@ -167,7 +167,7 @@ struct surface_selection surface_select(const struct surface *surface,
 size_t surface_count_seen(const struct surface *surface, enum surface_kind kind);
 
 // "#define"s of the numbers of layers, for programs that include terrain/layers.glsl.
-enum { SURFACE_DEFINE_COUNT = 9, SURFACE_DEFINE_LENGTH = 48 };
+enum { SURFACE_DEFINE_COUNT = 11, SURFACE_DEFINE_LENGTH = 48 };
 struct surface_defines {
     char text[SURFACE_DEFINE_COUNT][SURFACE_DEFINE_LENGTH];
     const char *list[SURFACE_DEFINE_COUNT + 2]; // into text; two free for the caller

@@ -5,8 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_LEVELS = 24, SWEEPS = 12 };
-static const float FAR_TEXELS = 1e9f;
+enum { MAX_LEVELS = 24, SWEEPS = 12, COARSE_SWEEPS = 60 };
+static const float FAR_TEXELS = 1e12f; // squared; more than any raster's diagonal
+
+// A gap is known as coarsely as its rim is far: at 8 texels from it, to 4.
+static const double COARSER_TEXELS = 0.5;
 
 // A plane of numbers of which some are known, with its mip chain: means of what is known.
 struct plane {
@@ -117,34 +120,68 @@ static void spread(struct plane *p)
                 }
             }
         }
-        for (int i = 0; i < SWEEPS; i++) {
+        for (int i = 0; i < (level == 0 ? SWEEPS : COARSE_SWEEPS); i++) {
             relax(p, level);
         }
     }
 }
 
-// Chamfer distances in texels to the nearest that is 0, from the north-west and back.
-static void measure_distances(uint32_t width, uint32_t height, float *distance)
+// One line of squared distances, in place: the lower envelope of parabolas on each of its places
+// (Felzenszwalb and Huttenlocher 2012, Theory of Computing 8). `scratch` holds 3 count + 1.
+static void transform_line(float *line, size_t count, size_t stride, float *scratch)
 {
-    const int64_t count = (int64_t)width * height;
-    for (int pass = 0; pass < 2; pass++) {
-        const int64_t step = pass == 0 ? -1 : 1;
-        for (int64_t k = 0; k < count; k++) {
-            const int64_t i = pass == 0 ? k : count - 1 - k;
-            const int64_t x = i % width, y = i / width;
-            const bool has_side = x + step >= 0 && x + step < (int64_t)width;
-            const bool has_row = y + step >= 0 && y + step < (int64_t)height;
-            float d = distance[i];
-            d = has_side ? fminf(d, distance[i + step] + 1) : d;
-            for (int64_t dx = -1; dx <= 1 && has_row; dx++) {
-                if (x + dx >= 0 && x + dx < (int64_t)width) {
-                    const float far = dx == 0 ? 1 : 1.4142f;
-                    d = fminf(d, distance[i + step * (int64_t)width + dx] + far);
-                }
-            }
-            distance[i] = d;
-        }
+    float *values = scratch, *starts = scratch + count, *places = starts + count + 1;
+    for (size_t i = 0; i < count; i++) {
+        values[i] = line[i * stride];
     }
+    size_t last = 0;
+    places[0] = 0;
+    starts[0] = -FAR_TEXELS;
+    for (size_t q = 1; q < count; q++) {
+        const float x = (float)q;
+        float meet = 0;
+        for (;;) {
+            const float p = places[last];
+            meet = 0.5f * ((values[q] - values[(size_t)p]) / (x - p) + x + p);
+            if (meet > starts[last] || last == 0) {
+                break;
+            }
+            last--;
+        }
+        last += meet > starts[last];
+        places[last] = x;
+        starts[last] = last == 0 ? -FAR_TEXELS : meet;
+    }
+    size_t k = 0;
+    for (size_t q = 0; q < count; q++) {
+        while (k < last && starts[k + 1] < (float)q) {
+            k++;
+        }
+        const float away = (float)q - places[k];
+        line[q * stride] = away * away + values[(size_t)places[k]];
+    }
+}
+
+// Distances in texels to the nearest texel that is 0; the others are FAR_TEXELS before.
+static trl_result measure_distances(const trl_context *ctx, const struct layer_frame *f,
+                                    float *distance)
+{
+    const size_t longest = f->width > f->height ? f->width : f->height;
+    float *scratch = mem_alloc(ctx, 3 * longest + 1, sizeof *scratch);
+    if (!scratch) {
+        return TRL_ERROR_MEMORY;
+    }
+    for (size_t x = 0; x < f->width; x++) {
+        transform_line(distance + x, f->height, f->width, scratch);
+    }
+    for (size_t y = 0; y < f->height; y++) {
+        transform_line(distance + y * f->width, f->width, 1, scratch);
+    }
+    for (size_t i = 0; i < (size_t)f->width * f->height; i++) {
+        distance[i] = sqrtf(distance[i]);
+    }
+    mem_free(ctx, scratch);
+    return TRL_OK;
 }
 
 static double smooth_part(double x)
@@ -200,27 +237,29 @@ static trl_result fill_gaps(const struct layer_fill *below, struct gaps *gaps,
     const struct layer_frame *f = &layer->frame;
     const int64_t count = (int64_t)f->width * f->height;
     gaps->distance = mem_alloc(layer->ctx, (size_t)count, sizeof(float));
-    const trl_result result = gaps->distance
-                                  ? plane_init(layer->ctx, f->width, f->height, &gaps->difference)
-                                  : TRL_ERROR_MEMORY;
+    layer->heights.coarser = mem_alloc(layer->ctx, (size_t)count, 1);
+    trl_result result = gaps->distance && layer->heights.coarser
+                            ? plane_init(layer->ctx, f->width, f->height, &gaps->difference)
+                            : TRL_ERROR_MEMORY;
     if (result != TRL_OK) {
         return result;
     }
     measure_rim(below, layer, gaps);
     spread(&gaps->difference);
-    measure_distances(f->width, f->height, gaps->distance);
+    result = measure_distances(layer->ctx, f, gaps->distance);
     const double feather = fmax(f->feather / f->texel_height, 1);
 #pragma omp parallel for schedule(dynamic, 4096)
     for (int64_t i = 0; i < count; i++) {
+        const double away = (double)gaps->distance[i] / feather;
         if (gaps->voids[i]) {
-            const double left = 1 - smooth_part((double)gaps->distance[i] / feather);
-            const double height =
-                height_below(below, f, (size_t)i) + left * (double)gaps->difference.values[0][i];
-            layer_set_texel(&layer->heights, (size_t)i, height);
+            const double left = (1 - smooth_part(away)) * (double)gaps->difference.values[0][i];
+            layer_set_texel(&layer->heights, (size_t)i, height_below(below, f, (size_t)i) + left);
         }
+        const double coarser = log2(1 + COARSER_TEXELS * (double)gaps->distance[i]);
+        layer->heights.coarser[i] = (uint8_t)lrint(fmin(coarser * LAYER_COARSER_STEPS, 255));
     }
     plane_finish(&gaps->difference);
-    return TRL_OK;
+    return result;
 }
 
 static trl_result fail_all_void(const struct raster *raster)
@@ -288,14 +327,14 @@ static trl_result feather_alpha(const trl_context *ctx, const struct layer_frame
     for (size_t i = 0; i < count; i++) {
         distance[i] = rgba[4 * i + 3] > 0 ? FAR_TEXELS : 0;
     }
-    measure_distances(f->width, f->height, distance);
+    const trl_result result = measure_distances(ctx, f, distance);
     const double feather = fmax(f->feather / f->texel_height, 1);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && result == TRL_OK; i++) {
         const double weight = smooth_part(((double)distance[i] - 0.5) / feather);
         rgba[4 * i + 3] = (uint8_t)lrint(weight * rgba[4 * i + 3]);
     }
     mem_free(ctx, distance);
-    return TRL_OK;
+    return result;
 }
 
 trl_result voids_fill_picture(const struct raster *raster, const struct layer_frame *f,

@@ -134,6 +134,11 @@ static void test_gaps_have_no_cliffs(void **state)
     assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
     // Rounded to a metre in the layer below.
     assert_close(altitude(&s, 45, 15), smooth_height(45, 15), 1.5);
+    // What fills the gap is known the more coarsely the farther its rim is: 1 + r / 2 texels.
+    const struct terrain_layer *layer = &s.layers[SURFACE_ELEVATION][1];
+    assert_close(layer_coarser(layer, 49.5, 20), 0, 0);
+    assert_close(layer_coarser(layer, 49.5, 49.5), log2(1 + 0.5 * 10), 0.15);
+    assert_close(layer_coarser(layer, 49.5, 44.5), log2(1 + 0.5 * 5), 0.15);
     double before = altitude(&s, 46.5, 15);
     assert_close(before, 3000, 1e-6); // no good height is touched
     for (double latitude = 46.5; latitude > 45.4; latitude -= 0.02) {
