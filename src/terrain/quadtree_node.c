@@ -223,7 +223,9 @@ static double find_finest(const struct surface *surface, const struct surface_ey
         const struct terrain_layer *layer = &surface->layers[SURFACE_ELEVATION][index];
         finest = fmin(finest, layer_finest_frame(layer)->texel_height);
     }
-    return finest * surface->radius_m;
+    finest *= surface->radius_m;
+    return noise_is_there(&surface->noise) ? fmin(finest, noise_shortest_m(&surface->noise) / 4)
+                                           : finest;
 }
 
 static trl_result make_batch(struct quadtree_nodes *nodes, const uint32_t *indices, size_t count,

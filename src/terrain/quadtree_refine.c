@@ -14,7 +14,12 @@ static const double SMALLEST_TEXELS = 0.25;
 // A square is split in full when it is nearer than its range by this power of two, and the range of
 // a square is smaller than its parent's by at least as much; so one morphs after the other.
 static const double MORPH_OCTAVES = 0.5;
-// Of the tolerance, when there are too many squares.
+// Squares in view or nearly, of which about two thirds are drawn. Where more would be needed, the
+// tolerance grows by a power of how many times more: as it falls, their number grows like this on
+// rough ground. The number changes little from frame to frame, and so does the tolerance.
+static const double BUDGET = 500;
+static const double BUDGET_POWER = 1.2;
+// Of the tolerance, when there are more squares than can be.
 static const double RELIEF = 1.25;
 // Squares outside of the view are chosen, too, when balls as much larger would be seen: when they
 // come into view, the levels at corners have been theirs for some time.
@@ -273,6 +278,16 @@ static trl_result refine_once(struct refinement *r)
     return result;
 }
 
+static trl_result refine_as_can_be(struct refinement *r)
+{
+    trl_result result = refine_once(r);
+    while (result == TRL_OK && r->is_too_much) {
+        r->tolerance_rad *= RELIEF;
+        result = refine_once(r);
+    }
+    return result;
+}
+
 trl_result quadtree_refine(struct quadtree_nodes *nodes, const struct camera *camera,
                            double tolerance_rad, struct quadtree_leaves *out)
 {
@@ -284,10 +299,11 @@ trl_result quadtree_refine(struct quadtree_nodes *nodes, const struct camera *ca
                              .sight = quadtree_sight_make(nodes->surface, camera),
                              .tolerance_rad = tolerance_rad};
     quadtree_nodes_follow_surface(nodes);
-    trl_result result = refine_once(r);
-    while (result == TRL_OK && r->is_too_much) {
-        r->tolerance_rad *= RELIEF;
-        result = refine_once(r);
+    trl_result result = refine_as_can_be(r);
+    const double excess = r->front.count / BUDGET;
+    if (result == TRL_OK && excess > 1) {
+        r->tolerance_rad *= pow(excess, BUDGET_POWER);
+        result = refine_as_can_be(r);
     }
     if (result == TRL_OK) {
         take_leaves(r, out);
