@@ -25,6 +25,9 @@ static trl_result init(const trl_context *ctx, const struct trl_scene *scene, bo
     ground_describe(ctx, scene, layers, &desc);
     if (!has_pictures) {
         desc.layer_count = keep_heights(layers, desc.layer_count);
+    } else {
+        // Paths meet the ground many times: they would spend most of it on decimetres.
+        desc.detail = (struct surface_detail){0};
     }
     trl_result result = trl_progress(ctx, "reading rasters", 0);
     if (result == TRL_OK) {

@@ -117,19 +117,13 @@ static double find_steepest(const struct terrain_layer *layer, double radius_m)
     return 1.5 * steepest / radius_m;
 }
 
-// Of all layers, and of the feathers in which they give way to each other.
-static double find_steepest_ground(const struct surface *s)
+static void find_slopes(struct terrain_ceiling *ceiling)
 {
-    const double range = s->max_altitude_m - s->min_altitude_m;
-    double steepest = s->is_invented ? noise_find_steepest(&s->noise) : 0;
-    for (size_t i = 0; i < s->counts[SURFACE_ELEVATION]; i++) {
-        const struct terrain_layer *layer = &s->layers[SURFACE_ELEVATION][i];
-        const bool has_border = layer->frame.reach_rad < SHARED_PI;
-        const double feather = fmax(layer->frame.feather, layer->frame.texel_height) * s->radius_m;
-        steepest = fmax(steepest, find_steepest(layer, s->radius_m));
-        steepest += has_border ? 1.5 * range / feather : 0;
+    const struct surface *s = ceiling->surface;
+    ceiling->steepest_map = s->is_invented ? noise_find_steepest(&s->noise) : 0;
+    for (size_t i = 0; i < ceiling->count; i++) {
+        ceiling->pyramids[i].steepest = find_steepest(ceiling->pyramids[i].layer, s->radius_m);
     }
-    return steepest;
 }
 
 trl_result terrain_ceiling_init(const struct surface *surface, struct terrain_ceiling *out)
@@ -142,7 +136,7 @@ trl_result terrain_ceiling_init(const struct surface *surface, struct terrain_ce
         out->count += result == TRL_OK;
     }
     if (result == TRL_OK && noise_is_there(&surface->noise)) {
-        out->steepest = find_steepest_ground(surface);
+        find_slopes(out);
     }
     if (result != TRL_OK) {
         terrain_ceiling_finish(out);
@@ -262,6 +256,42 @@ static double highest_around(const struct ceiling_pyramid *pyramid, const struct
     return highest_of(pyramid, &place, texels);
 }
 
+// The least weight of a layer within an angle of a direction, by its middle and four sides.
+static double least_weight(const struct layer_frame *f, struct vec3 up, double angle_rad)
+{
+    const struct anchor a = anchor_below(up);
+    double least = 1;
+    for (int k = 0; k < 5; k++) {
+        const struct vec3 way = k < 3 ? vec3_scale(a.east, k - 1) : vec3_scale(a.north, 2 * k - 7);
+        const struct vec3 p = vec3_add(up, vec3_scale(way, 1.5 * angle_rad));
+        least = fmin(least, layer_locate(f, atan2(p.z, hypot(p.x, p.y)), atan2(p.y, p.x)).weight);
+    }
+    return least;
+}
+
+// Of the ground without octaves: of all layers in reach, and of the feathers in which they give way
+// to each other. What covers all hides what is below.
+static double find_slope_around(const struct terrain_ceiling *ceiling, struct vec3 up,
+                                double angle_rad, double range_m)
+{
+    const double radius_m = ceiling->surface->radius_m;
+    double steepest = ceiling->steepest_map;
+    for (size_t i = 0; i < ceiling->count; i++) {
+        const struct terrain_layer *layer = ceiling->pyramids[i].layer;
+        const struct layer_frame *f = &layer->frame;
+        const double away = acos(fmax(-1, fmin(1, vec3_dot(up, f->direction))));
+        if (f->reach_rad < SHARED_PI && away > angle_rad + f->reach_rad) {
+            continue;
+        }
+        const double feather = fmax(f->feather, f->texel_height) * radius_m;
+        const bool covers = least_weight(f, up, angle_rad) >= 1;
+        const double slope = ceiling->pyramids[i].steepest;
+        steepest = covers && layer->mode == BLEND_OVER ? slope : steepest + slope;
+        steepest += covers ? 0 : 1.5 * range_m / feather;
+    }
+    return steepest;
+}
+
 // With noise: the surface's table of bounds, whose cells are large, or what the ground at the place
 // and its slopes allow.
 static double bound_noise(const struct terrain_ceiling *ceiling, struct vec3 up, double angle_rad)
@@ -271,19 +301,24 @@ static double bound_noise(const struct terrain_ceiling *ceiling, struct vec3 up,
     if (angle_rad > widest) {
         return surface_max_altitude(s);
     }
-    const double table = (double)surface_bounds_around(s, up, angle_rad).max;
+    const struct surface_bounds cells = surface_bounds_around(s, up, angle_rad);
+    const double table = (double)cells.max;
     const double reach = angle_rad * s->radius_m;
+    const double slope = find_slope_around(ceiling, up, angle_rad, table - (double)cells.min);
+    if (slope * reach > table - (double)cells.min) {
+        return table;
+    }
     struct noise_place place;
     surface_find_place(s, up, &place);
     const struct noise_rise rise = noise_find_rise(&s->noise, &place.ground, reach);
     // Near the sea roughness changes within metres of altitude.
     const double full = s->noise.desc.full_height_m;
-    if (full > 0 && fabs(place.ground.height_m) < full + ceiling->steepest * reach) {
+    if (full > 0 && fabs(place.ground.height_m) < full + slope * reach) {
         return table;
     }
     place.octaves = rise.octaves;
     const double here = noise_relief_at(&s->noise, &place).height;
-    const double slopes = here + ceiling->steepest * reach + rise.rise_m;
+    const double slopes = here + slope * reach + rise.rise_m;
     return fmin(table, s->noise.desc.has_sea ? fmax(slopes, 0) : slopes);
 }
 

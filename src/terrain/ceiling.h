@@ -16,13 +16,14 @@ struct ceiling_pyramid {
     uint32_t width[CEILING_MAX_LEVELS], height[CEILING_MAX_LEVELS];
     float *highest[CEILING_MAX_LEVELS]; // owned: one block, at the first
     double all;                         // the highest of all
+    double steepest;                    // m per m; only where there is noise
 };
 
 // Must not outlive the surface.
 struct terrain_ceiling {
     const struct surface *surface;
     size_t count;
-    double steepest; // slope of the ground without noise, m per m; only where there is noise
+    double steepest_map; // of the noise's own ground, m per m
     struct ceiling_pyramid pyramids[SURFACE_MAX_LAYERS];
 };
 

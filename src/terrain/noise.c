@@ -419,10 +419,12 @@ struct noise_reach noise_find_reach(const struct terrain_noise *noise, double am
         amplitude_m * (noises * weight * (1 - 0.77 * ridged) + gullies * GULLIES)};
 }
 
-// Slopes of octaves of size 1 and of gullies, per wavelength: half more than the largest of a
-// million places (tests/terrain/noise.c), where many octaves are at most seldom at once.
-static const double STEEPEST_NOISE = 20;
-static const double STEEPEST_GULLY = 25;
+// Slopes per wavelength of octaves of size 1. Of a million random places one octave alone is never
+// steeper than 13, ten together than 30: one is let be the steepest, and the others a third of it.
+// Gullies are steeper about their forks only, where they are no higher than elsewhere.
+static const double STEEPEST_NOISE = 13;
+static const double NEXT_STEEPEST = 4;
+static const double STEEPEST_GULLY = 20;
 
 struct noise_rise noise_find_rise(const struct terrain_noise *noise,
                                   const struct noise_ground *ground, double reach_m)
@@ -431,6 +433,7 @@ struct noise_rise noise_find_rise(const struct terrain_noise *noise,
     const double up = RELIEF_WEIGHT_BOUND * (1 - 0.77 * fmax(ground->ridged - RIDGED_SLACK, 0));
     struct noise_rise rise = {0, 0};
     bool is_long = true;
+    double steepest = 0;
     for (int i = 0; i < noise->ends[2]; i++) {
         const bool is_gully = i >= noise->ends[0] && i < noise->ends[1];
         const double size = amplitude * noise->size[i];
@@ -439,10 +442,13 @@ struct noise_rise noise_find_rise(const struct terrain_noise *noise,
         const double change = slope * reach_m / noise->wave_m[i];
         is_long = is_long && change < most;
         rise.octaves += is_long;
-        rise.rise_m += is_long ? change : most;
+        const double part = is_gully ? 1 : NEXT_STEEPEST / STEEPEST_NOISE;
+        rise.rise_m += is_long ? part * change : most;
+        steepest = is_long && !is_gully ? fmax(steepest, change) : steepest;
         // What is there grows with the amplitude.
         rise.rise_m += is_long ? 2 * noise->size[i] * noise->steepest_spread * reach_m : 0;
     }
+    rise.rise_m += steepest * (1 - NEXT_STEEPEST / STEEPEST_NOISE);
     return rise;
 }
 
