@@ -192,14 +192,6 @@ enum exit_status bench_table_print_json(struct bench_table *table,
     return EXIT_OK;
 }
 
-void bench_forget_rows(struct bench_table *table, int first)
-{
-    for (; table->row_count > first; table->row_count--) {
-        free(table->rows[table->row_count - 1].samples);
-        table->rows[table->row_count - 1] = (struct bench_row){0};
-    }
-}
-
 void bench_table_finish(struct bench_table *table)
 {
     for (int i = 0; i < table->row_count; i++) {

@@ -48,9 +48,6 @@ struct bench_sample {
 // TRL_ERROR_MEMORY (reported) when there is no place for it.
 trl_result bench_add(struct bench_table *table, struct bench_sample sample);
 
-// Drops the rows from this one on, which were measured to warm up.
-void bench_forget_rows(struct bench_table *table, int first);
-
 // What the paper prints for the row of that case and metric, which need not be measured.
 trl_result bench_add_paper(struct bench_table *table, struct bench_sample printed);
 
