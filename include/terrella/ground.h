@@ -98,7 +98,10 @@ typedef struct trl_mesh_error {
     double edge_rms_px, edge_max_px;
     uint32_t lost_edges; ///< places with no drawn silhouette within 16 pixels; they count as that
     uint32_t holes; ///< places, not beside a silhouette, where ground is missing or is too much
-    double cpu_ms;  ///< processor time, all threads, of drawing the mesh once more
+    double
+        new_cpu_ms; ///< processor time, all threads, of drawing the mesh, with all that had to be
+                    ///< made for the view
+    double cpu_ms;  ///< and of drawing it once more
 } trl_mesh_error;
 
 /// Threads: any. All 0 for NULL.

@@ -116,6 +116,7 @@ trl_mesh_error trl_mesh_check_error(const trl_mesh_check *check)
                             .edge_max_px = e->edge_max,
                             .lost_edges = e->lost_edges,
                             .holes = e->holes,
+                            .new_cpu_ms = e->new_cpu_ms,
                             .cpu_ms = e->cpu_ms};
 }
 

@@ -25,7 +25,8 @@ struct mesh_error {
     double edge_rms, edge_max;
     uint32_t lost_edges; // with none drawn within MESH_CHECK_MAX_EDGE; they count as that
     uint32_t holes;      // no ground where there is, far from silhouettes, or the reverse
-    double cpu_ms;       // processor time of the mesh's update and drawing
+    double new_cpu_ms; // processor time of the mesh's update and drawing, for the first time there
+    double cpu_ms;     // and once more
 };
 #define MESH_CHECK_MAX_EDGE 16.0
 
