@@ -151,8 +151,10 @@ enum options_outcome view_command_read(const struct view_command *command, int a
     const struct option ground[] = {
         mesher_option_make(&command->choice->mesher,
                            "How the mesh of the ground is made: hemisphere (a grid that faces the "
-                           "camera, Michelic 2019) or projective (rays around the camera, laid on "
-                           "the planet in every frame, PGM). Default: hemisphere."),
+                           "camera, Michelic 2019), tessellated (the same divided by the GPU's "
+                           "tessellation), projective (rays around the camera, laid on the planet "
+                           "in every frame, PGM) or quadtree (tiles split where the ground is near "
+                           "and rough, Schafhitzel 2007). Default: hemisphere."),
         mesher_option_make_grid(&command->choice->mesher)};
     const struct option_section sections[] = {
         command->own,

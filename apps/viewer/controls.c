@@ -160,12 +160,14 @@ static void toggle_air(struct viewer *viewer)
 // The next one; behind the last comes the first.
 static void change_mesher(struct viewer *viewer)
 {
-    trl_mesher next = trl_renderer_mesher(viewer->renderer) + 1;
-    next = trl_mesher_name(next) ? next : (trl_mesher)0;
-    if (trl_renderer_set_mesher(viewer->renderer, next) == TRL_OK) {
-        viewer->is_changed = true;
-        viewer->last_title_s = 0.0;
+    trl_mesher next = trl_renderer_mesher(viewer->renderer);
+    trl_result result = TRL_ERROR_UNSUPPORTED;
+    while (result == TRL_ERROR_UNSUPPORTED) { // the present one at the latest is there
+        next = trl_mesher_name(next + 1) ? next + 1 : (trl_mesher)0;
+        result = trl_renderer_set_mesher(viewer->renderer, next);
     }
+    viewer->is_changed = true;
+    viewer->last_title_s = 0.0;
 }
 
 static void note_key(GLFWwindow *window, int key, int scancode, int action, int modifiers)

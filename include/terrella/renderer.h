@@ -57,8 +57,10 @@ typedef enum trl_mesher {
                            ///< centre (Michelic 2019)
     TRL_MESHER_PROJECTIVE, ///< "projective": a grid of rays around the camera, laid on the planet
                            ///< anew in every frame (planetary projective grid mapping)
-    TRL_MESHER_QUADTREE    ///< "quadtree": tiles that are split where the ground is near and rough
+    TRL_MESHER_QUADTREE,   ///< "quadtree": tiles that are split where the ground is near and rough
                            ///< (Schafhitzel 2007)
+    TRL_MESHER_TESSELLATED ///< "tessellated": the grid of the hemisphere, divided and culled by the
+                           ///< GPU's tessellation; needs OpenGL 4.0 or ES 3.2
 } trl_mesher;
 
 /// The word for it on the command line; NULL for what is none, as for the first number behind the
@@ -127,7 +129,7 @@ TRL_API void trl_renderer_destroy(trl_renderer **renderer);
 /// Draws the scene into the renderer's own targets, which follow the size; nothing is allocated
 /// while it stays the same. Does not wait for the GPU. In a shared context all GL state that it
 /// touches is left changed: the caller sets what it needs afterwards. A camera below the ground, or
-/// less than half a metre above it, is lifted to that height.
+/// less than a centimetre above it, is lifted to that height.
 /// @param view       every number finite; ranges as in trl_view, altitude up to 10000 radii, EV
 /// within 64 of 0
 /// @param width      [1, TRL_RENDERER_MAX_SIDE], with height at most TRL_RENDERER_MAX_PIXELS
@@ -260,8 +262,8 @@ TRL_API trl_air trl_renderer_air(const trl_renderer *renderer);
 /// Makes the mesh of the ground in another way from the next frame on. The first time for each
 /// mesher builds its programs; what was made is kept. A scene without surface layers has no mesh,
 /// and remembers the choice only.
-/// @return TRL_OK; TRL_ERROR_INVALID (there is no such mesher); TRL_ERROR_MEMORY; TRL_ERROR_GPU;
-///         on failure the old one stays
+/// @return TRL_OK; TRL_ERROR_INVALID (there is no such mesher); TRL_ERROR_UNSUPPORTED (the GL has
+///         no tessellation); TRL_ERROR_MEMORY; TRL_ERROR_GPU; on failure the old one stays
 TRL_API TRL_MUST_USE trl_result trl_renderer_set_mesher(trl_renderer *renderer, trl_mesher mesher);
 
 /// The mesher that frames are drawn with.

@@ -12,20 +12,30 @@ SHARED_STRUCT(LocalDirection)
     Number x, y, z; // unit direction - (0, 0, 1)
 };
 
-// Square rings |max(gx, gy)| = m move: evenly up to m = `inner`, in (0, 1], beyond which each is
-// larger than the last by the same factor, to 1 at 1. Cells then have one size as seen from the
-// middle. Returns the factor for gx and gy, continuous with its first derivative.
-SHARED_FN Number hemisphere_warp(Number gx, Number gy, Number inner)
+// How square rings |max(gx, gy)| = m of the grid move: beyond m = inner each is larger than the
+// last by the same factor, to 1 at 1, so that cells have one size as seen from the middle; within,
+// by the power. Continuous with the first derivative. inner in (0, 1], power >= 1; power = inner =
+// 1 leaves them as they are.
+SHARED_STRUCT(HemisphereRings)
 {
-    Number ring = shared_max(shared_max(shared_abs(gx), shared_abs(gy)), inner);
-    return exp((ring - 1.0) / inner) / ring;
+    Number inner, power;
+};
+
+// The factor for gx and gy.
+SHARED_FN Number hemisphere_warp(Number gx, Number gy, HemisphereRings rings)
+{
+    Number ring = shared_max(shared_max(shared_abs(gx), shared_abs(gy)), 1e-6);
+    Number outer = shared_max(ring, rings.inner);
+    Number within = shared_min(ring, rings.inner) / rings.inner;
+    return exp((outer - 1.0) * rings.power / rings.inner) / outer * pow(within, rings.power - 1.0);
 }
 
 // Eq. 1 and 2 with n = 4: the grid point (gx, gy) in [-1, 1]^2, lifted to the approximate
 // hemisphere and by `lift` (z_s, Eq. 3), seen from the planet's centre.
-SHARED_FN LocalDirection hemisphere_direction(Number gx, Number gy, Number inner, Number lift)
+SHARED_FN LocalDirection hemisphere_direction(Number gx, Number gy, HemisphereRings rings,
+                                              Number lift)
 {
-    Number warp = hemisphere_warp(gx, gy, inner);
+    Number warp = hemisphere_warp(gx, gy, rings);
     Number x = gx * warp;
     Number y = gy * warp;
     Number z = (1.0 - x * x * x * x) * (1.0 - y * y * y * y) + lift;

@@ -12,14 +12,16 @@
 #include "shared/hemisphere.glsl"
 #include "terrain/layers.glsl"
 
-uniform vec4 u_grid; // cells to a side, inner part of the warp, lift (z_s), base altitude (m)
+uniform vec4 u_grid;  // cells to a side, lift (z_s), base altitude (m)
+uniform vec2 u_rings; // inner part and power of the warp
 uniform mat3 u_planet_from_local;
 
 out vec4 o_position;
 
 vec3 grid_direction(vec2 g)
 {
-    LocalDirection d = hemisphere_direction(g.x, g.y, u_grid.y, u_grid.z);
+    LocalDirection d =
+        hemisphere_direction(g.x, g.y, HemisphereRings(u_rings.x, u_rings.y), u_grid.y);
     return vec3(d.x, d.y, d.z);
 }
 
@@ -37,6 +39,6 @@ void main()
     float cell = length(grid_direction(next) - grid_direction(quad)) * u_anchor.w;
     float h = terrain_altitude(geo_from_local(o, 1.0), log2(cell) - 1.0);
     // Near the anchor both terms are small, and keep their digits.
-    vec3 offset = o * (u_anchor.w + h) + vec3(0.0, 0.0, h - u_grid.w);
+    vec3 offset = o * (u_anchor.w + h) + vec3(0.0, 0.0, h - u_grid.z);
     o_position = vec4(u_planet_from_local * offset, h);
 }

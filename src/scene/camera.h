@@ -10,8 +10,8 @@
 #include "base/camera.h"
 #include <terrella/scene.h>
 
-// No camera stands nearer to the ground than this, in metres: at the height of grass.
-#define CAMERA_MIN_HEIGHT_M 0.5
+// No camera stands nearer to the ground than this, in metres.
+#define CAMERA_MIN_HEIGHT_M 0.01
 
 struct scene_body;
 

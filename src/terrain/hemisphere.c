@@ -29,6 +29,16 @@ enum {
 // The higher the camera, the more of the grid is in view at once, and the smaller it is there:
 // above these parts of the radius every second and every fourth vertex is enough.
 enum { MESHES = 3 };
+// With tessellation: 100 x 100 patches, as in the paper, in draws of at most 64, beyond which a
+// software rasteriser collapses. Edges are divided until a part is as long as CELL_PIXELS of a
+// picture of PIXEL_ROWS rows.
+enum {
+    PATCH_CELLS = 8,
+    CHUNK_PATCHES = (CHUNK_CELLS / PATCH_CELLS) * (CHUNK_CELLS / PATCH_CELLS),
+    DRAW_CHUNKS = 64 / CHUNK_PATCHES
+};
+static const double CELL_PIXELS = 4;
+static const double PIXEL_ROWS = 576;
 static const double COARSER_ABOVE[MESHES] = {0, 0.05, 0.5};
 
 // What must be in view for a chunk to be drawn.
@@ -45,7 +55,7 @@ struct hemisphere {
     struct gpu *gpu;
     const struct surface *surface;
     struct projection projection;
-    double inner;   // of the warp
+    HemisphereRings rings;
     double base_m;  // altitude from which positions count, above the anchor; a float
     uint32_t level; // of `meshes`
     struct camera camera;
@@ -55,6 +65,8 @@ struct hemisphere {
     struct height_programs grid_programs;
     struct gpu_program mesh_program;
     struct gpu_mesh meshes[MESHES]; // of every vertex, every second, every fourth
+    bool is_tessellated;
+    struct gpu_mesh patches; // only then, and no `meshes`
 };
 
 static void put_cell(uint32_t *indices, uint32_t x, uint32_t y, uint32_t step)
@@ -106,10 +118,43 @@ static trl_result make_mesh(struct hemisphere *h, uint32_t step, struct gpu_mesh
     return result;
 }
 
+static trl_result make_patches(struct hemisphere *h)
+{
+    enum { SIDE = CELLS + 1, COUNT = CHUNKS * CHUNK_PATCHES * 4 };
+    uint32_t *indices = mem_alloc(h->gpu->ctx, COUNT, sizeof *indices);
+    if (!indices) {
+        return TRL_ERROR_MEMORY;
+    }
+    uint32_t *to = indices;
+    for (uint32_t i = 0; i < CHUNKS * CHUNK_PATCHES; i++, to += 4) {
+        const uint32_t chunk = i / CHUNK_PATCHES, part = i % CHUNK_PATCHES;
+        const uint32_t row = CHUNK_CELLS / PATCH_CELLS;
+        const uint32_t x = chunk % CHUNK_ROW * CHUNK_CELLS + part % row * PATCH_CELLS;
+        const uint32_t y = chunk / CHUNK_ROW * CHUNK_CELLS + part / row * PATCH_CELLS;
+        to[0] = y * SIDE + x;
+        to[1] = to[0] + PATCH_CELLS;
+        to[2] = to[1] + PATCH_CELLS * SIDE;
+        to[3] = to[0] + PATCH_CELLS * SIDE;
+    }
+    const struct gpu_mesh_desc desc = {.label = "hemisphere patches",
+                                       .primitive = GPU_PRIMITIVE_PATCHES,
+                                       .patch_vertices = 4,
+                                       .vertex_count = SIDE * SIDE,
+                                       .index_count = COUNT,
+                                       .indices = indices};
+    const trl_result result = gpu_mesh_init(h->gpu, &desc, &h->patches);
+    mem_free(h->gpu->ctx, indices);
+    return result;
+}
+
 static trl_result make_programs(struct hemisphere *h)
 {
-    const struct gpu_program_desc mesh = {.vertex = "terrain/mesh.vert",
-                                          .fragment = "terrain/mesh.frag"};
+    struct gpu_program_desc mesh = {.vertex = "terrain/mesh.vert", .fragment = "terrain/mesh.frag"};
+    if (h->is_tessellated) {
+        mesh.vertex = "terrain/patch.vert";
+        mesh.tess_control = "terrain/patch.tesc";
+        mesh.tess_evaluate = "terrain/patch.tese";
+    }
     const trl_result result =
         height_programs_init(h->surface, "terrain/grid.frag", &h->grid_programs);
     return result == TRL_OK ? gpu_program_init(h->gpu, &mesh, &h->mesh_program) : result;
@@ -135,7 +180,7 @@ static trl_result make_target(struct hemisphere *h)
 static struct vec3 grid_direction(const struct hemisphere *h, double x, double y)
 {
     const LocalDirection d =
-        hemisphere_direction(2 * x / CELLS - 1, 2 * y / CELLS - 1, h->inner, h->projection.lift);
+        hemisphere_direction(2 * x / CELLS - 1, 2 * y / CELLS - 1, h->rings, h->projection.lift);
     return (struct vec3){d.x, d.y, d.z + 1};
 }
 
@@ -175,17 +220,33 @@ static void place_chunk(struct hemisphere *h, uint32_t index)
 
 static trl_result draw_grid(struct hemisphere *h)
 {
-    const float grid[4] = {CELLS, (float)h->inner, (float)h->projection.lift, (float)h->base_m};
+    const float grid[4] = {CELLS, (float)h->projection.lift, (float)h->base_m, 0};
+    const float rings[2] = {(float)h->rings.inner, (float)h->rings.power};
     float planet_from_local[9];
     anchor_planet_from_local(&h->projection.anchor, planet_from_local);
     const struct surface_eye eye = projection_eye(&h->projection, h->surface, 0);
     struct gpu_program *program =
         height_programs_bind(&h->grid_programs, &eye, &h->projection.anchor);
     gpu_program_set_vec4(program, "u_grid", grid);
+    gpu_program_set_vec2(program, "u_rings", rings);
     gpu_program_set_mat3(program, "u_planet_from_local", planet_from_local);
     const struct gpu_pass pass = {.target = &h->target};
     gpu_pass_begin(h->gpu, &pass);
     return gpu_draw_fullscreen(program, "terrain heights");
+}
+
+// Rings of one factor from where nothing nearer needs smaller cells. A camera that is far nearer to
+// the ground than that, for the data are coarse there, has smaller cells below it all the same, and
+// begins at twice the distance: flat ones would cut through the ground that it nearly touches.
+static HemisphereRings find_rings(const struct hemisphere *h)
+{
+    const struct projection *p = &h->projection;
+    const double power = 1 + fmax(0, fmin(1, 0.5 * log2(p->near_m / p->height_m)));
+    // As grid coordinate: the apex of Eq. 2 is 1 above z_s.
+    const double apex = fmax(1 + p->lift, 0.1);
+    const double near = fmin(power * p->near_m / h->surface->radius_m * apex, 1);
+    // ln near = power (inner - 1) / inner
+    return (HemisphereRings){power / (power - log(near)), power};
 }
 
 static trl_result update(struct mesher *base, const struct camera *camera)
@@ -197,10 +258,7 @@ static trl_result update(struct mesher *base, const struct camera *camera)
     }
     h->projection = projection_make(h->surface, camera);
     h->base_m = (double)(float)surface_altitude(h->surface, camera->position_m);
-    // Distance on the ground near the middle, as grid coordinate: the apex of Eq. 2 is 1 above z_s.
-    const double apex = 1 + h->projection.lift;
-    const double near = h->projection.near_m / h->surface->radius_m * fmax(apex, 0.1);
-    h->inner = 1 / (1 - log(fmin(near, 1)));
+    h->rings = find_rings(h);
     h->level = 0;
     while (h->level + 1 < MESHES &&
            h->projection.height_m > COARSER_ABOVE[h->level + 1] * h->surface->radius_m) {
@@ -252,6 +310,10 @@ static void set_camera(struct hemisphere *h)
     const float camera_offset[3] = {(float)offset.x, (float)offset.y, (float)offset.z};
     gpu_program_set_vec3(&h->mesh_program, "u_camera_offset", camera_offset);
     gpu_program_set_mat3(&h->mesh_program, "u_view", view);
+    const double tx = c->tan_half_fov_x, ty = c->tan_half_fov_y;
+    const float edge[4] = {(float)(CELL_PIXELS * 2 * ty / PIXEL_ROWS), PATCH_CELLS,
+                           (float)(sqrt(1 + tx * tx) / tx), (float)(sqrt(1 + ty * ty) / ty)};
+    gpu_program_set_vec4(&h->mesh_program, "u_edge", edge);
     gpu_program_set_texture(&h->mesh_program, "u_positions", &h->positions);
 }
 
@@ -274,6 +336,23 @@ static trl_result draw_run(struct hemisphere *h, uint32_t first, uint32_t count)
     return gpu_draw_mesh_range(&h->mesh_program, mesh, range, "terrain mesh");
 }
 
+// Counts two triangles a patch: how many the GPU makes of it is not known here.
+static trl_result draw_patches(struct hemisphere *h, uint32_t first, uint32_t count)
+{
+    enum { SIZE = CHUNK_PATCHES * 4 };
+    trl_result result = TRL_OK;
+    for (uint32_t at = first; at < first + count && result == TRL_OK; at += DRAW_CHUNKS) {
+        const uint32_t left = first + count - at;
+        const uint32_t chunks = left < DRAW_CHUNKS ? left : DRAW_CHUNKS;
+        const struct gpu_draw_range range = {at * SIZE, chunks * SIZE, 1};
+        h->base.stats.triangles += 2 * chunks * CHUNK_PATCHES;
+        h->base.stats.chunks += chunks;
+        h->base.stats.draws++;
+        result = gpu_draw_mesh_range(&h->mesh_program, &h->patches, range, "terrain patches");
+    }
+    return result;
+}
+
 static trl_result draw_range(struct hemisphere *h, const struct depth_range *range)
 {
     depth_range_bind(range, &h->mesh_program);
@@ -284,7 +363,8 @@ static trl_result draw_range(struct hemisphere *h, const struct depth_range *ran
             i++;
         }
         if (i > first) {
-            result = draw_run(h, first, i - first);
+            result = h->is_tessellated ? draw_patches(h, first, i - first)
+                                       : draw_run(h, first, i - first);
         }
     }
     return result;
@@ -311,6 +391,7 @@ static void destroy(struct mesher *base)
     for (int i = 0; i < MESHES; i++) {
         gpu_mesh_finish(&h->meshes[i]);
     }
+    gpu_mesh_finish(&h->patches);
     height_programs_finish(&h->grid_programs);
     gpu_program_finish(&h->mesh_program);
     gpu_target_finish(&h->target);
@@ -318,7 +399,7 @@ static void destroy(struct mesher *base)
     mem_free(h->gpu->ctx, h);
 }
 
-trl_result hemisphere_create(const struct surface *surface, struct mesher **out)
+static trl_result create(const struct surface *surface, bool is_tessellated, struct mesher **out)
 {
     static const struct mesher_ops OPS = {update, draw, destroy};
     struct hemisphere *h = mem_alloc(surface->gpu->ctx, 1, sizeof *h);
@@ -329,9 +410,13 @@ trl_result hemisphere_create(const struct surface *surface, struct mesher **out)
     h->base.ops = &OPS;
     h->gpu = surface->gpu;
     h->surface = surface;
+    h->is_tessellated = is_tessellated;
     trl_result result = make_target(h);
     result = result == TRL_OK ? make_programs(h) : result;
-    for (uint32_t i = 0; i < MESHES && result == TRL_OK; i++) {
+    if (is_tessellated && result == TRL_OK) {
+        result = make_patches(h);
+    }
+    for (uint32_t i = 0; i < MESHES && result == TRL_OK && !is_tessellated; i++) {
         result = make_mesh(h, 1u << i, &h->meshes[i]);
     }
     if (result != TRL_OK) {
@@ -339,9 +424,20 @@ trl_result hemisphere_create(const struct surface *surface, struct mesher **out)
         return result;
     }
     h->base.stats.bytes = sizeof *h + sizeof(float[4]) * (CELLS + 1) * (CELLS + 1);
+    h->base.stats.bytes += sizeof(uint32_t) * (uint64_t)h->patches.index_count;
     for (uint32_t i = 0; i < MESHES; i++) {
         h->base.stats.bytes += sizeof(uint32_t) * (uint64_t)h->meshes[i].index_count;
     }
     *out = &h->base;
     return TRL_OK;
+}
+
+trl_result hemisphere_create(const struct surface *surface, struct mesher **out)
+{
+    return create(surface, false, out);
+}
+
+trl_result hemisphere_create_tessellated(const struct surface *surface, struct mesher **out)
+{
+    return create(surface, true, out);
 }

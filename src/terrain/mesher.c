@@ -13,6 +13,7 @@ static const struct kind KINDS[MESHER_MAX_KINDS] = {
     [TRL_MESHER_HEMISPHERE] = {"hemisphere", hemisphere_create},
     [TRL_MESHER_PROJECTIVE] = {"projective", projective_create_default},
     [TRL_MESHER_QUADTREE] = {"quadtree", quadtree_create},
+    [TRL_MESHER_TESSELLATED] = {"tessellated", hemisphere_create_tessellated},
 };
 
 const char *mesher_name(trl_mesher kind)

@@ -54,6 +54,8 @@ TRL_MUST_USE trl_result mesher_draw(struct mesher *mesher, const struct gpu_targ
 
 // Used by the above.
 TRL_MUST_USE trl_result hemisphere_create(const struct surface *surface, struct mesher **out);
+TRL_MUST_USE trl_result hemisphere_create_tessellated(const struct surface *surface,
+                                                      struct mesher **out);
 TRL_MUST_USE trl_result quadtree_create(const struct surface *surface, struct mesher **out);
 
 #endif // TERRAIN_MESHER_H

@@ -58,7 +58,7 @@ static struct mesh_error check_raised(void **state, double truth_m, double heigh
 {
     struct planet p;
     planet_make(*state, raised, NULL, &p);
-    planet_use(&p, TRL_MESHER_HEMISPHERE);
+    assert_true(planet_use(&p, TRL_MESHER_HEMISPHERE));
     p.truth = make_level(&truth_m);
     const struct camera_place place = {
         .radius_m = R, .altitude_m = height_m, .pitch = pitch, .fov = 20};
@@ -128,7 +128,9 @@ static void every_mesher_is_within_a_pixel(void **state)
     struct planet p;
     planet_make(*state, rolling, hilly, &p);
     for (int kind = 0; mesher_name((trl_mesher)kind); kind++) {
-        planet_use(&p, (trl_mesher)kind);
+        if (!planet_use(&p, (trl_mesher)kind)) {
+            continue;
+        }
         for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
             const struct camera camera = planet_camera(&p, views[i], heights[i]);
             const struct mesh_error e = planet_check(&p, &camera, 400, 8);
@@ -164,7 +166,7 @@ static void what_changes_is_the_mesh_and_not_the_camera(void **state)
 {
     struct planet p;
     planet_make(*state, rolling, hilly, &p);
-    planet_use(&p, TRL_MESHER_HEMISPHERE);
+    assert_true(planet_use(&p, TRL_MESHER_HEMISPHERE));
     const struct camera_place place = {
         .latitude = 40.5, .longitude = 29, .heading = 100, .pitch = -20, .fov = 50};
     struct mesh_check checks[3];

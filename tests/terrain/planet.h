@@ -24,7 +24,8 @@ typedef double planet_heights(double latitude_deg, double longitude_deg);
 // of half a degree, 8.7 km.
 void planet_make(struct fixture *f, planet_heights *globe, planet_heights *inset,
                  struct planet *out);
-void planet_use(struct planet *planet, trl_mesher mesher);
+// False: this GL has not what the mesher needs.
+bool planet_use(struct planet *planet, trl_mesher mesher);
 void planet_destroy(struct planet *planet);
 
 // `height_m` above the ground of the place.

@@ -54,9 +54,9 @@ static void test_grid_covers_the_cap_and_not_much_more(void **state)
         double nearest = 9;
         for (int k = -1000; k <= 1000; k++) {
             const double t = k / 1000.0;
-            const double inner = 1 / (1 + (double)(i % 3));
-            nearest = fmin(nearest, angle_of(hemisphere_direction(1, t, inner, lift)));
-            nearest = fmin(nearest, angle_of(hemisphere_direction(t, -1, inner, lift)));
+            const HemisphereRings rings = {1 / (1 + (double)(i % 3)), 1 + 0.5 * (double)(i % 2)};
+            nearest = fmin(nearest, angle_of(hemisphere_direction(1, t, rings, lift)));
+            nearest = fmin(nearest, angle_of(hemisphere_direction(t, -1, rings, lift)));
         }
         // The border's nearest points are the middles of its sides, which lie on the cap's edge.
         assert_close(nearest, reach, 1e-6);
@@ -68,10 +68,11 @@ static void test_directions_keep_digits_near_the_middle(void **state)
     (void)state;
     // 1 mm on Earth: in single precision, relative to itself, not to the planet.
     const double lift = 20;
-    const LocalDirection d = hemisphere_direction(3.3e-9, 0, 1, lift);
+    const HemisphereRings even = {1, 1}, bent = {0.4, 1.7};
+    const LocalDirection d = hemisphere_direction(3.3e-9, 0, even, lift);
     assert_close(d.x * 21 / 3.3e-9, 1, ROUNDING);
     assert_close(d.z / (-0.5 * d.x * d.x), 1, ROUNDING);
-    const LocalDirection far = hemisphere_direction(0.9, -0.4, 0.4, -0.3);
+    const LocalDirection far = hemisphere_direction(0.9, -0.4, bent, -0.3);
     assert_close(far.x * far.x + far.y * far.y + (1 + far.z) * (1 + far.z), 1, ROUNDING);
 }
 
