@@ -94,13 +94,15 @@ NoiseGround noise_ground(vec2 geo, float cos_latitude, float log2_footprint)
 {
     float lod = max(log2_footprint - u_noise_more.y, 0.0);
     int level = int(lod);
-    NoiseGround g = noise_ground_at(geo, cos_latitude, level);
     float part = lod - float(level);
-    if (part > 0.0) {
-        NoiseGround h = noise_ground_at(geo, cos_latitude, level + 1);
-        g.map = mix(g.map, h.map, part);
-        g.slope = mix(g.slope, h.slope, part);
-        g.spread = mix(g.spread, h.spread, part);
+    NoiseGround g = NoiseGround(vec4(0.0), vec2(0.0), vec2(0.0));
+    // A loop, which ends where the next level is not wanted: a branch would fetch it anyway.
+    for (int k = 0; k < (part > 0.0 ? 2 : 1); k++) {
+        NoiseGround h = noise_ground_at(geo, cos_latitude, level + k);
+        float weight = k == 0 ? 1.0 - part : part;
+        g.map += weight * h.map;
+        g.slope += weight * h.slope;
+        g.spread += weight * h.spread;
     }
     return g;
 }
@@ -150,9 +152,10 @@ float noise_size(int i, NoiseView view)
     return view.amplitude * u_noise_size[i].y * relief_lacking(u_noise_size[i].x, view.texel);
 }
 
+// Also where there is nothing to see: on the sea, and on the floor of oceans.
 bool noise_is_over(int i, int end, NoiseView view)
 {
-    return i >= end || u_noise_size[i].x - view.footprint < 1.0;
+    return i >= end || u_noise_size[i].x - view.footprint < 1.0 || view.amplitude < 1e-3;
 }
 
 // The relief that is made on top of `r`. `up` is unit.

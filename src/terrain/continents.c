@@ -124,6 +124,8 @@ static struct noise_texel finish_texel(const struct continents_desc *desc, const
     // In deviations of the land's noise.
     const double inland = ((double)d->land - sea) / 0.22;
     const double is_land = desc->ocean_share > 0 ? smooth(-0.25, 0.35, inland) : 1;
+    // Nobody sees how rough the floor of an ocean is, and octaves that are not there cost nothing.
+    const double is_seen = desc->ocean_share > 0 ? smooth(-1, -0.4, inland) : 1;
     const double rise = desc->ocean_share > 0 ? inland : 0.8 * (inland + 1.2);
     const double plains = rise > 0 ? 0.14 * (1 - exp(-1.2 * rise))
                                    : -(1 - exp(-2 * rise * rise)) - 0.05 * tanh(-rise);
@@ -133,7 +135,7 @@ static struct noise_texel finish_texel(const struct continents_desc *desc, const
     return (struct noise_texel){
         .height_m = (float)(desc->height_m * (plains + 0.55 * mountains * is_land)),
         .amplitude_m = (float)(desc->amplitude_m * (0.02 + 0.16 * hills * hills + 0.9 * mountains) *
-                               (0.3 + 0.7 * is_land)),
+                               (0.3 + 0.7 * is_land) * is_seen),
         .ridged = desc->form == NOISE_PLAIN
                       ? 0.0f
                       : (float)(0.15 + 0.75 * smooth(0.05, 0.5, mountains + 0.2 * hills)),

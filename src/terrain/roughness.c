@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { WIDTH = 512, HEIGHT = 256, SAMPLES = 8 };
+enum { WIDTH = 512, HEIGHT = 256, SAMPLES = 4 };
 // What noise of amplitude 1 and a wavelength of 4 texels, with all octaves below and above in
 // proportion, shows of the quantity that is measured: found by evaluating it, 0.49 to 0.69 for
 // Hurst exponents of 0.6 to 1, folded by half or not.
