@@ -27,13 +27,4 @@ SHARED_FN Number cubic_blend(Number t, Number a, Number b, Number c, Number d)
            c * cubic_weight_inner(1.0 - t) + d * cubic_weight_outer(2.0 - t);
 }
 
-// Its derivative by t.
-SHARED_FN Number cubic_slope(Number t, Number a, Number b, Number c, Number d)
-{
-    Number after = 1.0 - t;
-    return a * (((-7.0 / 6.0) * (1.0 + t) + 4.0) * (1.0 + t) - 10.0 / 3.0) +
-           b * (3.5 * t - 4.0) * t - c * (3.5 * after - 4.0) * after -
-           d * (((-7.0 / 6.0) * (1.0 + after) + 4.0) * (1.0 + after) - 10.0 / 3.0);
-}
-
 #endif // SHARED_CUBIC_GLSL

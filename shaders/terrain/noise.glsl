@@ -3,8 +3,8 @@
 // Relief made of noise, where it is the ground itself and where it is below the resolution of data.
 // The C side is src/terrain/noise.c; formulas are in shared/relief.glsl. Places are offsets from
 // the anchor's point of the reference sphere, local axes, m.
-#include "shared/cubic.glsl"
 #include "shared/relief.glsl"
+#include "shared/spline.glsl"
 
 // The map: height in m, amplitude of the first octave in m, how ridged, climate.
 uniform highp sampler2D u_noise_map;
@@ -28,18 +28,7 @@ struct NoiseGround {
     vec2 spread; // of the amplitude
 };
 
-ivec2 noise_texel(ivec2 p, ivec2 size)
-{
-    bool is_over = p.y < 0 || p.y >= size.y;
-    p.y = p.y < 0 ? -1 - p.y : p.y >= size.y ? 2 * size.y - 1 - p.y : p.y;
-    p.x += is_over ? size.x / 2 : 0;
-    p.x -= p.x >= size.x ? size.x : 0;
-    p.x += p.x < 0 ? size.x : 0;
-    p.x -= p.x >= size.x ? size.x : 0;
-    return p;
-}
-
-// Smooth between texels, by the cubic.
+// Smooth between texels.
 NoiseGround noise_ground_at(vec2 geo, float cos_latitude, int level)
 {
     ivec2 whole = textureSize(u_noise_map, 0);
@@ -49,37 +38,38 @@ NoiseGround noise_ground_at(vec2 geo, float cos_latitude, int level)
     vec2 rest = vec2(u_noise_map_base.xy - (base << level));
     vec2 moved = u_noise_map_place.xy + vec2(geo.x, -geo.y) * u_noise_map_place.zw;
     vec2 at = (rest + moved + 0.5) / texels - 0.5;
-    vec2 corner = floor(at);
-    vec2 f = at - corner;
-    ivec2 first = base + ivec2(corner) - 1;
+    vec2 middle = floor(at + 0.5);
+    vec2 f = at - middle;
+    ivec2 first = base + ivec2(middle) - 1;
     first.x -= first.x >= size.x ? size.x : 0;
-    first.x += first.x < -3 ? size.x : 0;
-    vec4 rows[4];
-    vec2 slopes[4];
-    for (int j = 0; j < 4; j++) {
-        vec4 t[4];
-        for (int i = 0; i < 4; i++) {
-            t[i] = texelFetch(u_noise_map, noise_texel(first + ivec2(i, j), size), level);
+    first.x += first.x < 0 ? size.x : 0;
+    vec4 rows[3];
+    vec2 slopes[3];
+    for (int j = 0; j < 3; j++) {
+        int y = first.y + j;
+        bool is_over = y < 0 || y >= size.y; // a pole: down the opposite meridian
+        int x = first.x + (is_over ? size.x / 2 : 0);
+        x -= x >= size.x ? size.x : 0;
+        y = y < 0 ? -1 - y : y >= size.y ? 2 * size.y - 1 - y : y;
+        int next = x + 1 < size.x ? x + 1 : x + 1 - size.x;
+        int last = next + 1 < size.x ? next + 1 : next + 1 - size.x;
+        vec4 a = texelFetch(u_noise_map, ivec2(x, y), level);
+        vec4 b = texelFetch(u_noise_map, ivec2(next, y), level);
+        vec4 c = texelFetch(u_noise_map, ivec2(last, y), level);
+        for (int k = 0; k < 4; k++) {
+            rows[j][k] = spline_blend(f.x, a[k], b[k], c[k]);
         }
-        for (int c = 0; c < 4; c++) {
-            rows[j][c] = cubic_blend(f.x, t[0][c], t[1][c], t[2][c], t[3][c]);
-        }
-        // Differences from one of them: a float has few digits of a kilometre.
-        for (int c = 0; c < 2; c++) {
-            slopes[j][c] =
-                cubic_slope(f.x, t[0][c] - t[1][c], 0.0, t[2][c] - t[1][c], t[3][c] - t[1][c]);
-        }
+        slopes[j] = vec2(spline_slope(f.x, a.x, b.x, c.x), spline_slope(f.x, a.y, b.y, c.y));
     }
     NoiseGround g;
-    for (int c = 0; c < 4; c++) {
-        g.map[c] = cubic_blend(f.y, rows[0][c], rows[1][c], rows[2][c], rows[3][c]);
+    for (int k = 0; k < 4; k++) {
+        g.map[k] = spline_blend(f.y, rows[0][k], rows[1][k], rows[2][k]);
     }
     vec2 east;
     vec2 south;
-    for (int c = 0; c < 2; c++) {
-        east[c] = cubic_blend(f.y, slopes[0][c], slopes[1][c], slopes[2][c], slopes[3][c]);
-        south[c] = cubic_slope(f.y, rows[0][c] - rows[1][c], 0.0, rows[2][c] - rows[1][c],
-                               rows[3][c] - rows[1][c]);
+    for (int k = 0; k < 2; k++) {
+        east[k] = spline_blend(f.y, slopes[0][k], slopes[1][k], slopes[2][k]);
+        south[k] = spline_slope(f.y, rows[0][k], rows[1][k], rows[2][k]);
     }
     vec2 per_metre = u_noise_map_place.zw / (texels * u_anchor.w);
     east *= per_metre.x / max(cos_latitude, 1e-4);

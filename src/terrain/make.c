@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "terrain/make.h"
 
-#include "shared/cubic.glsl"
 #include "terrain/roughness.h"
 
 #include <math.h>
@@ -64,7 +63,8 @@ trl_result make_detail(const struct surface_desc *desc, struct surface *s)
     return result == TRL_OK ? noise_init(s->gpu, &noise, &map, &s->noise) : result;
 }
 
-// The texels that a cell's cubic sees, one after another: those of the cell and two beside it.
+// The texels that a cell's spline sees, one after another: those of the cell and one beside it. It
+// stays between them.
 struct window {
     const struct noise_map *map;
     int first_x, first_y, columns, rows;
@@ -75,7 +75,7 @@ static struct window open_window(const struct surface *s, int column, int row)
     const struct noise_map *map = &s->noise.map;
     const int width = (int)map->width / SURFACE_BOUNDS_COLUMNS;
     const int height = (int)map->height / SURFACE_BOUNDS_ROWS;
-    return (struct window){map, column * width - 2, row * height - 2, width + 4, height + 4};
+    return (struct window){map, column * width - 1, row * height - 1, width + 2, height + 2};
 }
 
 static const struct noise_texel *window_texel(const struct window *w, int i)
@@ -97,8 +97,7 @@ struct surface_bounds make_bound_ground(const struct surface *s, int column, int
         b.min = fminf(b.min, window_texel(&w, i)->height_m);
         b.max = fmaxf(b.max, window_texel(&w, i)->height_m);
     }
-    const float slack = (float)CUBIC_OVERSHOOT * (b.max - b.min);
-    return (struct surface_bounds){b.min - slack, b.max + slack};
+    return b;
 }
 
 struct noise_reach make_bound_octaves(const struct surface *s, int column, int row)
@@ -111,9 +110,6 @@ struct noise_reach make_bound_octaves(const struct surface *s, int column, int r
         least = fmin(least, (double)t->ridged);
         most = fmax(most, (double)t->ridged);
     }
-    const double slack = CUBIC_OVERSHOOT * (most - least);
-    amplitude *= 1 + CUBIC_OVERSHOOT;
-    return (struct noise_reach){
-        noise_find_reach(&s->noise, amplitude, fmin(most + slack, 1)).down_m,
-        noise_find_reach(&s->noise, amplitude, fmax(least - slack, 0)).up_m};
+    return (struct noise_reach){noise_find_reach(&s->noise, amplitude, most).down_m,
+                                noise_find_reach(&s->noise, amplitude, least).up_m};
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "terrain/noise.h"
 
-#include "shared/cubic.glsl"
+#include "shared/spline.glsl"
 
 #include <math.h>
 #include <string.h>
@@ -108,7 +108,7 @@ static void halve(const struct noise_map *from, struct noise_map *to)
 }
 
 // Mean over as many columns as a texel is narrower than high: all of them in the last two rows,
-// which are what the cubic sees at the pole, so that it has one height and is level.
+// which are what the spline sees at the pole, so that it has one height and is level.
 static void level_row(const struct noise_map *map, uint32_t y, struct noise_texel *copy)
 {
     const double latitude = SHARED_PI * (0.5 - (y + 0.5) / map->height);
@@ -190,7 +190,8 @@ static float height_of(const struct noise_texel *t)
     return t->height_m;
 }
 
-// The cubic's slope is at most 3/2 of the steepest difference of texels. Rows near poles are level.
+// The spline's slope is at most the steepest difference of texels along each direction, and both
+// together root 2 of it. Rows near poles are level.
 static double find_steepest(const struct terrain_noise *noise,
                             float (*value)(const struct noise_texel *))
 {
@@ -207,7 +208,7 @@ static double find_steepest(const struct terrain_noise *noise,
             most = fmax(most, fabs((double)value(&map->texels[right]) - here) / narrow);
         }
     }
-    return 1.5 * most / (SHARED_PI * noise->radius_m / map->height);
+    return sqrt(2) * most / (SHARED_PI * noise->radius_m / map->height);
 }
 
 trl_result noise_init(struct gpu *gpu, const struct noise_desc *desc, struct noise_map *map,
@@ -266,22 +267,21 @@ struct noise_ground noise_ground_at(const struct terrain_noise *noise, struct ve
     const double per_radian[2] = {map->width / (2 * SHARED_PI), map->height / SHARED_PI};
     const double x = (atan2(up.y, up.x) + SHARED_PI) * per_radian[0] - 0.5;
     const double y = (SHARED_PI / 2 - atan2(up.z, flat)) * per_radian[1] - 0.5;
-    const int64_t column = (int64_t)floor(x), row = (int64_t)floor(y);
+    const int64_t column = (int64_t)floor(x + 0.5), row = (int64_t)floor(y + 0.5);
     const double fx = x - (double)column, fy = y - (double)row;
-    double rows[4][4], slopes[4][2];
-    for (int j = 0; j < 4; j++) {
-        const struct noise_texel *t[4];
-        for (int i = 0; i < 4; i++) {
+    double rows[3][4], slopes[3][2];
+    for (int j = 0; j < 3; j++) {
+        const struct noise_texel *t[3];
+        for (int i = 0; i < 3; i++) {
             t[i] = &map->texels[texel_index(map, column - 1 + i, row - 1 + j)];
         }
-#define BLEND(blend, part)                                                                         \
-    blend(fx, (double)t[0]->part, (double)t[1]->part, (double)t[2]->part, (double)t[3]->part)
-        rows[j][0] = BLEND(cubic_blend, height_m);
-        rows[j][1] = BLEND(cubic_blend, amplitude_m);
-        rows[j][2] = BLEND(cubic_blend, ridged);
-        rows[j][3] = BLEND(cubic_blend, climate);
-        slopes[j][0] = BLEND(cubic_slope, height_m);
-        slopes[j][1] = BLEND(cubic_slope, amplitude_m);
+#define BLEND(blend, part) blend(fx, (double)t[0]->part, (double)t[1]->part, (double)t[2]->part)
+        rows[j][0] = BLEND(spline_blend, height_m);
+        rows[j][1] = BLEND(spline_blend, amplitude_m);
+        rows[j][2] = BLEND(spline_blend, ridged);
+        rows[j][3] = BLEND(spline_blend, climate);
+        slopes[j][0] = BLEND(spline_slope, height_m);
+        slopes[j][1] = BLEND(spline_slope, amplitude_m);
 #undef BLEND
     }
     double blended[4];
@@ -289,14 +289,13 @@ struct noise_ground noise_ground_at(const struct terrain_noise *noise, struct ve
     const struct vec3 east = {-up.y / fmax(flat, 1e-12), up.x / fmax(flat, 1e-12), 0};
     const struct vec3 north = vec3_cross(up, east);
     for (int c = 0; c < 4; c++) {
-        blended[c] = cubic_blend(fy, rows[0][c], rows[1][c], rows[2][c], rows[3][c]);
+        blended[c] = spline_blend(fy, rows[0][c], rows[1][c], rows[2][c]);
     }
     for (int c = 0; c < 2; c++) {
-        const double along =
-            cubic_blend(fy, slopes[0][c], slopes[1][c], slopes[2][c], slopes[3][c]) *
-            per_radian[0] / (noise->radius_m * fmax(flat, 1e-4));
-        const double south = cubic_slope(fy, rows[0][c], rows[1][c], rows[2][c], rows[3][c]) *
-                             per_radian[1] / noise->radius_m;
+        const double along = spline_blend(fy, slopes[0][c], slopes[1][c], slopes[2][c]) *
+                             per_radian[0] / (noise->radius_m * fmax(flat, 1e-4));
+        const double south =
+            spline_slope(fy, rows[0][c], rows[1][c], rows[2][c]) * per_radian[1] / noise->radius_m;
         slope[c] = vec3_sub(vec3_scale(east, along), vec3_scale(north, south));
     }
     return (struct noise_ground){blended[0], blended[1], blended[2],
