@@ -55,10 +55,14 @@ Look find_look(Tangent t, LookPlace p)
 #endif
 #ifdef HAS_BIOMES
     BiomePlace place = biome_place(r.height, steep, u_anchor.z + t.ground.geo.y, base.climate);
-    region = biome_albedo(region, place);
     place.tone = r.tone;
     place.slope_spread = sqrt(r.unseen);
-    albedo = biome_albedo(albedo, place);
+    // A loop, since a branch would cost as much: the region is the pixel's own where that is larger.
+    for (int k = 0; k < (t.log2_footprint < u_region ? 2 : 1); k++) {
+        region = biome_albedo(u_default_albedo, place);
+        albedo = k == 0 ? region : albedo;
+        place.tone = 0.0;
+    }
 #endif
     look.root = terrain_albedo(sqrt(clamp(albedo, 0.0, 1.0)), t.ground, t.log2_footprint);
     look.region =
