@@ -12,20 +12,24 @@
 
 #define PI 3.14159265358979323846
 
-// Half a side and the system: 60 degrees is 2 R tan(15 degrees) from the pole.
+// Half a side and the system: 70 degrees is 2 R tan(10 degrees) from the pole.
 static const struct polar_map {
     const char *body, *suffix, *projection;
     double half_m;
 } MAPS[] = {
-    {"earth", "north", "EPSG:3413", 3.33e6},
-    {"earth", "south", "EPSG:3031", 3.33e6},
-    {"mars", "north", "+proj=stere +lat_0=90 +lon_0=0 +k=1 +R=3396190 +units=m +no_defs", 1.82e6},
-    {"mars", "south", "+proj=stere +lat_0=-90 +lon_0=0 +k=1 +R=3396190 +units=m +no_defs", 1.82e6}};
+    {"earth", "north", "EPSG:3413", 2.2e6},
+    {"earth", "south", "EPSG:3031", 2.2e6},
+    {"mars", "north", "+proj=stere +lat_0=90 +lon_0=0 +k=1 +R=3396190 +units=m +no_defs", 1.2e6},
+    {"mars", "south", "+proj=stere +lat_0=-90 +lon_0=0 +k=1 +R=3396190 +units=m +no_defs", 1.2e6}};
 
 // Pixels to a cell of the globe: with one, what two filters blur would show.
-static const double FINENESS = 1.5;
+static const double FINENESS = 2;
 
-// Corners of a map are 48 degrees of latitude: rows from 45 on are looked at.
+// Along a parallel the mean is taken over so many heights of a cell: of heights less shows rays,
+// which their columns make; of pictures more blurs.
+static const double HEIGHTS_WIDTH = 2.2, PICTURE_WIDTH = 0.75;
+
+// Corners of a map are 61 degrees of latitude: rows from 54 on are looked at.
 struct resampler {
     const struct globe_values *globe;
     uint32_t rows; // from either pole
@@ -41,7 +45,7 @@ static trl_result sum_rows(const struct places *places, struct resampler *r)
 {
     const struct globe_values *g = r->globe;
     const size_t stride = (size_t)g->width + 1;
-    r->rows = g->height / 4;
+    r->rows = g->height / 5;
     r->sums = mem_alloc(places->ctx, stride * 2 * r->rows, g->bands * sizeof *r->sums);
     for (size_t k = 0; k < 2 * (size_t)r->rows && r->sums; k++) {
         const size_t row = k < r->rows ? k : g->height - 2 * (size_t)r->rows + k;
@@ -80,7 +84,8 @@ static double row_mean(const struct resampler *r, uint32_t band, double column, 
         row = row < 1 ? 1 : row > (int64_t)g->height - 2 ? (int64_t)g->height - 2 : row;
     }
     const double latitude = PI / 2 - PI * ((double)row + 0.5) / g->height;
-    const double columns = fmin(fmax(1, 1 / (FINENESS * cos(latitude))), g->width / 2.0);
+    const double width = g->shorts ? HEIGHTS_WIDTH : PICTURE_WIDTH;
+    const double columns = fmin(fmax(1, width / cos(latitude)), g->width / 2.0);
     const int64_t first_south = (int64_t)g->height - 2 * (int64_t)r->rows;
     const size_t kept = (size_t)(row < (int64_t)r->rows ? row : row - first_south);
     const int32_t *sums = r->sums + (kept * g->bands + band) * ((size_t)g->width + 1);
@@ -173,8 +178,8 @@ static trl_result write_map(const struct places *places, const struct polar_map 
 {
     const struct globe_values *globe = r->globe;
     char *file = mem_printf(places->ctx, "%s-%s.tif", name, map->suffix);
-    // From the rows in 60 degrees of latitude, in steps of 256.
-    const uint32_t side = (uint32_t)ceil(FINENESS * globe->height / 3.0 / 256) * 256;
+    // From the rows in 40 degrees of latitude, in steps of 256.
+    const uint32_t side = (uint32_t)ceil(FINENESS * globe->height / 4.5 / 256) * 256;
     struct geotiff g = {.name = file,
                         .width = side,
                         .height = side,

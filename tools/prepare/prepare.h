@@ -95,8 +95,8 @@ struct globe_values {
 };
 
 // Writes NAME-north.tif and NAME-south.tif: the same about the poles in stereographic projection,
-// square, to 60 degrees of latitude in the middle of the sides, with pixels of two thirds of the
-// height of the globe's cells. Each is the mean of what it covers, so nothing of the globe's narrow
+// square, to 70 degrees of latitude in the middle of the sides, with pixels of half the height of
+// the globe's cells. Each is the mean of what it covers, so nothing of the globe's narrow
 // columns is left. `body` is earth or mars.
 TRL_MUST_USE trl_result polar_prepare(const struct places *places, const char *body,
                                       const char *name, const struct globe_values *globe);
