@@ -57,7 +57,8 @@ Look find_look(Tangent t, LookPlace p)
     BiomePlace place = biome_place(r.height, steep, u_anchor.z + t.ground.geo.y, base.climate);
     place.tone = r.tone;
     place.slope_spread = sqrt(r.unseen);
-    // A loop, since a branch would cost as much: the region is the pixel's own where that is larger.
+    // A loop, since a branch would cost as much: the region is the pixel's own where that is
+    // larger.
     for (int k = 0; k < (t.log2_footprint < u_region ? 2 : 1); k++) {
         region = biome_albedo(u_default_albedo, place);
         albedo = k == 0 ? region : albedo;
