@@ -42,9 +42,9 @@ trl_result make_detail(const struct surface_desc *desc, struct surface *s)
     const struct terrain_layer *lowest = &s->layers[SURFACE_ELEVATION][0];
     const double texel_m = layer_finest_frame(lowest)->texel_height * s->radius_m;
     // Measured on what is held of the layer: of tiles, that is a coarse level.
-    const double finer = texel_m / (lowest->frame.texel_height * s->radius_m);
-    const struct roughness_desc roughness = {
-        lowest, s->radius_m, d->roughness * pow(finer, DETAIL_HURST), DETAIL_RIDGED};
+    const double finer = roughness_of_tiles(s->ctx, lowest, DETAIL_HURST);
+    const struct roughness_desc roughness = {lowest, s->radius_m, d->roughness * finer,
+                                             DETAIL_RIDGED};
     const double wave_m = ROUGHNESS_TEXELS * texel_m;
     const struct noise_desc noise = {.form = NOISE_ERODED,
                                      .octaves = NOISE_MAX_OCTAVES,

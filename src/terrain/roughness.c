@@ -16,7 +16,7 @@ static const double LEAST = 0.006;
 
 // Second differences over a texel's height, along both directions: slopes of the ground do not
 // count, what bends within three texels does.
-static double square_bend(const struct terrain_layer *layer, double latitude, double longitude)
+double roughness_square_bend(const struct terrain_layer *layer, double latitude, double longitude)
 {
     const struct layer_frame *f = &layer->frame;
     const struct layer_place p = layer_locate(f, latitude, longitude);
@@ -40,8 +40,8 @@ static struct noise_texel measure(const struct roughness_desc *desc, uint32_t co
     for (uint32_t k = 0; k < SAMPLES * SAMPLES; k++) {
         const double x = column + (k % SAMPLES + 0.5) / SAMPLES;
         const double y = row + (k / SAMPLES + 0.5) / SAMPLES;
-        sum += square_bend(desc->layer, SHARED_PI * (0.5 - y / HEIGHT),
-                           SHARED_PI * (2 * x / WIDTH - 1));
+        sum += roughness_square_bend(desc->layer, SHARED_PI * (0.5 - y / HEIGHT),
+                                     SHARED_PI * (2 * x / WIDTH - 1));
     }
     const double bend = sqrt(sum / (SAMPLES * SAMPLES));
     return (struct noise_texel){.amplitude_m = (float)(desc->factor * fmax(bend / OF_NOISE, least)),

@@ -22,4 +22,12 @@ struct roughness_desc {
 TRL_MUST_USE trl_result roughness_make(const trl_context *ctx, const struct roughness_desc *desc,
                                        struct noise_map *out);
 
+// What is measured for that, at a place, m^2.
+double roughness_square_bend(const struct terrain_layer *layer, double latitude, double longitude);
+
+// How rough the finest texels of a layer are relative to those that are held of it: 1 where it is
+// held whole; else some tiles are read for it, and where none can be, ground is taken to be like
+// itself with this Hurst exponent.
+double roughness_of_tiles(const trl_context *ctx, const struct terrain_layer *layer, double hurst);
+
 #endif // TERRAIN_ROUGHNESS_H
