@@ -221,7 +221,8 @@ static bool open_window(struct viewer *viewer, char message[VIEWER_MESSAGE_MAX])
 static void fly_scene(struct viewer *viewer)
 {
     trl_renderer_desc desc = trl_renderer_desc_default();
-    desc.waits_for_rasters = false;
+    // A flight goes on with what is there; a picture shall be complete.
+    desc.waits_for_rasters = viewer->desc->screenshot != NULL;
     desc.scene = viewer->desc->scene;
     desc.gl = TRL_GL_CURRENT;
     desc.sky_model = viewer->desc->sky_model;
