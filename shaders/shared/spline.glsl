@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #ifndef SHARED_SPLINE_GLSL
 #define SHARED_SPLINE_GLSL
-// The quadratic B-spline: three samples, a continuous slope, and never outside of the samples,
-// since its weights are not negative. t in [-1/2, 1/2] is the place from the middle sample.
+// The quadratic B-spline: three samples, a continuous slope, and never outside of them, since its
+// weights are not negative. t in [-1/2, 1/2] is the place from the middle sample.
 #include "shared/shared.glsl"
 
 SHARED_FN Number spline_blend(Number t, Number a, Number b, Number c)
