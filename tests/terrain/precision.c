@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SIDE = 160, TALL = 4 * SIDE };
+enum { SIDE = 96, TALL = 4 * SIDE };
 static const double R = 1e6;
 static const double DEGREE = 3.14159265358979323846 / 180;
 
@@ -194,7 +194,7 @@ static void what_is_in_front_is_drawn(void **state)
                 printf("%s, scene %zu: %d wrong\n", mesher_name((trl_mesher)kind), i, wrong);
             }
             // A crest that is off by a pixel.
-            assert_true(wrong <= SIDE * SIDE / 1000);
+            assert_true(wrong <= SIDE * SIDE / 500);
         }
     }
     sheet_finish(*state, &sheet);
@@ -219,7 +219,7 @@ static void check_at(const struct planet *p, const struct camera *camera, struct
 // beyond that is the mesh's rounding: each step is held against the truth for its own place.
 static double find_jitter(const struct planet *p, const struct scene *scene)
 {
-    enum { STEPS = 6 };
+    enum { STEPS = 3 };
     struct camera camera = planet_camera(p, scene->place, scene->height_m);
     const struct reference_caster caster = {&p->truth, R, &camera, 0};
     double distance = reference_caster_ray(&caster, 0, -0.5);
