@@ -9,8 +9,19 @@
 #include <string.h>
 #include <terrella/ground.h>
 
-enum { DEFAULT_FRAMES = 3, FLIGHT_FRAMES = 120, FLIGHT_STEP = 2, TIMINGS_MAX = 32 };
+enum {
+    DEFAULT_FRAMES = 3,
+    FLIGHT_FRAMES = 120,
+    FLIGHT_STEP = 2,
+    TIMINGS_MAX = 32,
+    MAX_MESHERS = 16
+};
 static const struct number_size SCREEN = {1024, 576};
+
+// What is summed up over all views of a mesher.
+struct tally {
+    double error2_px2, time_ms, worst_rms_px;
+};
 
 struct terrain_bench {
     const struct bench_job *job;
@@ -18,16 +29,23 @@ struct terrain_bench {
     struct bench_terrain_views views;
     trl_ground *ground;
     trl_renderer *renderer;
-    const char *mesher;
-    // Of the mesher, over all views.
-    double error2_px2, time_ms;
-    double worst_rms_px;
+    struct tally tallies[MAX_MESHERS];
 };
+
+static const char *name_mesher(const struct terrain_bench *b)
+{
+    return trl_mesher_name(trl_renderer_mesher(b->renderer));
+}
+
+static struct tally *find_tally(struct terrain_bench *b)
+{
+    return &b->tallies[trl_renderer_mesher(b->renderer)];
+}
 
 static trl_result add(const struct terrain_bench *b, const char *where, struct bench_sample sample)
 {
     char name[BENCH_NAME_MAX];
-    snprintf(name, sizeof name, "%.40s, %.20s", where, b->mesher);
+    snprintf(name, sizeof name, "%.40s, %.20s", where, name_mesher(b));
     sample.case_name = name;
     return bench_add(b->job->table, sample);
 }
@@ -70,7 +88,7 @@ static trl_result time_view(struct terrain_bench *b, const struct bench_terrain_
         }
         least_ms = i > 0 ? fmin(least_ms, ms) : least_ms;
     }
-    b->time_ms += least_ms;
+    find_tally(b)->time_ms += least_ms;
     return result;
 }
 
@@ -92,8 +110,9 @@ static trl_result add_error(struct terrain_bench *b, const char *where, const tr
         result = add(b, where, rows[i]);
     }
     const double rms_px = fmax(e->shift_rms_px, e->edge_rms_px);
-    b->worst_rms_px = fmax(b->worst_rms_px, rms_px);
-    b->error2_px2 += rms_px * rms_px;
+    struct tally *tally = find_tally(b);
+    tally->worst_rms_px = fmax(tally->worst_rms_px, rms_px);
+    tally->error2_px2 += rms_px * rms_px;
     return result;
 }
 
@@ -156,31 +175,46 @@ static trl_result fly(struct terrain_bench *b)
     return result;
 }
 
-static trl_result measure_mesher(struct terrain_bench *b, trl_mesher mesher)
+static trl_result measure_view_and_time(struct terrain_bench *b,
+                                        const struct bench_terrain_view *view)
 {
-    b->mesher = trl_mesher_name(mesher);
-    b->error2_px2 = b->time_ms = b->worst_rms_px = 0;
-    trl_result result = trl_renderer_set_mesher(b->renderer, mesher);
-    if (result == TRL_ERROR_UNSUPPORTED) {
-        bench_note(b->job->table, "This GL has no mesher \"%s\".", b->mesher);
-        return TRL_OK;
-    }
-    for (int i = 0; result == TRL_OK && i < b->views.count; i++) {
-        result = report(b, b->views.of[i].name, (double)i / b->views.count);
-        result = result == TRL_OK ? time_view(b, &b->views.of[i]) : result;
-        result = result == TRL_OK ? measure_view(b, &b->views.of[i]) : result;
-    }
-    if (result == TRL_OK && b->views.has_flight) {
-        result = fly(b);
-    }
+    const trl_result result = time_view(b, view);
+    return result == TRL_OK ? measure_view(b, view) : result;
+}
+
+static trl_result sum_up(struct terrain_bench *b)
+{
+    trl_result result = b->views.has_flight ? fly(b) : TRL_OK;
+    const struct tally *tally = find_tally(b);
     const int count = b->views.count > 0 ? b->views.count : 1;
-    const double rms_px = sqrt(b->error2_px2 / count), ms = b->time_ms / count;
-    const struct bench_sample rows[] = {{NULL, "worst RMS", "px", b->worst_rms_px},
+    const double rms_px = sqrt(tally->error2_px2 / count), ms = tally->time_ms / count;
+    const struct bench_sample rows[] = {{NULL, "worst RMS", "px", tally->worst_rms_px},
                                         {NULL, "RMS", "px", rms_px},
                                         {NULL, "mesh, mean", "ms", ms},
                                         {NULL, "RMS x mesh", "px ms", rms_px * ms}};
     for (size_t i = 0; result == TRL_OK && i < sizeof rows / sizeof *rows; i++) {
         result = add(b, "all views", rows[i]);
+    }
+    return result;
+}
+
+// The tessellated one draws what the hemisphere draws: it is measured when named.
+static bool is_meant(const struct terrain_bench *b, int mesher)
+{
+    return b->job->mesher < 0 ? mesher != TRL_MESHER_TESSELLATED : b->job->mesher == mesher;
+}
+
+// One view by all meshers (or, without one, what follows from all), so that rays are cast once.
+static trl_result measure_meshers(struct terrain_bench *b, const struct bench_terrain_view *view)
+{
+    trl_result result = TRL_OK;
+    for (int m = 0; result == TRL_OK && m < MAX_MESHERS && trl_mesher_name((trl_mesher)m); m++) {
+        if (is_meant(b, m)) {
+            result = trl_renderer_set_mesher(b->renderer, (trl_mesher)m);
+            if (result == TRL_OK) {
+                result = view ? measure_view_and_time(b, view) : sum_up(b);
+            }
+        }
     }
     return result;
 }
@@ -193,14 +227,11 @@ static trl_result measure(struct terrain_bench *b)
     trl_result result = bench_terrain_choose_views(b->scene, &b->views);
     result = result == TRL_OK ? trl_ground_create(ctx, b->scene, &b->ground) : result;
     result = result == TRL_OK ? trl_renderer_create(ctx, &desc, &b->renderer) : result;
-    for (int m = 0; result == TRL_OK && trl_mesher_name((trl_mesher)m); m++) {
-        // The tessellated one draws what the hemisphere draws: it is measured when named.
-        const bool is_meant =
-            b->job->mesher < 0 ? m != TRL_MESHER_TESSELLATED : b->job->mesher == m;
-        if (is_meant) {
-            result = measure_mesher(b, (trl_mesher)m);
-        }
+    for (int i = 0; result == TRL_OK && i < b->views.count; i++) {
+        result = report(b, b->views.of[i].name, (double)i / b->views.count);
+        result = result == TRL_OK ? measure_meshers(b, &b->views.of[i]) : result;
     }
+    result = result == TRL_OK ? measure_meshers(b, NULL) : result;
     trl_renderer_destroy(&b->renderer);
     trl_ground_destroy(&b->ground);
     return result;
