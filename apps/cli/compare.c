@@ -313,6 +313,7 @@ trl_result compare_write(const struct compare_desc *desc, FILE *summary)
     with.rayleigh = &desc->rayleigh;
     with.mesher = desc->mesher;
     with.projective = desc->projective;
+    with.mesh_error_px = desc->mesh_error_px;
     trl_renderer *renderer = NULL;
     struct compared all = {0};
     trl_result result = trl_renderer_create(desc->app->ctx, &with, &renderer);

@@ -28,6 +28,7 @@ struct compare_desc {
     trl_rayleigh_desc rayleigh;
     trl_mesher mesher;
     trl_projective_desc projective;
+    double mesh_error_px;
     struct number_size size; // of each model's picture
     uint32_t samples;
     const char *output;

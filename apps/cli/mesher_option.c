@@ -38,6 +38,17 @@ struct option mesher_option_make_grid(struct mesher_option *target)
                                    "whatever the picture's size. Default: 320x320."};
 }
 
+struct option mesher_option_make_error(struct mesher_option *target)
+{
+    return (struct option){.name = "mesh-error",
+                           .kind = OPTION_NUMBER,
+                           .target.number = &target->error_px,
+                           .metavar = "PX",
+                           .range = {TRL_MESH_ERROR_MIN_PX, TRL_MESH_ERROR_MAX_PX},
+                           .help = "Error of the quadtree's mesh that may be seen, in pixels. Less "
+                                   "takes more triangles, up to a budget. Default: 1.5."};
+}
+
 static bool is_side_good(uint32_t side)
 {
     return side >= TRL_PROJECTIVE_MIN_SIDE && side <= TRL_PROJECTIVE_MAX_SIDE && side % 2 == 0;
@@ -46,6 +57,9 @@ static bool is_side_good(uint32_t side)
 enum exit_status mesher_option_check(const struct mesher_option *option, const char *command)
 {
     const struct number_size grid = option->grid;
+    if (option->error_px.is_given && mesher_option_get(option) != TRL_MESHER_QUADTREE) {
+        return report_error(EXIT_USAGE, "%s: --mesh-error is for --mesher quadtree", command);
+    }
     if (grid.width == 0) {
         return EXIT_OK;
     }
@@ -68,4 +82,10 @@ trl_projective_desc mesher_option_get_projective(const struct mesher_option *opt
         desc.rows = option->grid.height;
     }
     return desc;
+}
+
+double mesher_option_get_error_px(const struct mesher_option *option)
+{
+    return option->error_px.is_given ? option->error_px.value
+                                     : trl_renderer_desc_default().mesh_error_px;
 }

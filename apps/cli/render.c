@@ -245,6 +245,7 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     desc.air = (trl_air)arguments->view.air;
     desc.mesher = mesher_option_get(&arguments->view.mesher);
     desc.projective = mesher_option_get_projective(&arguments->view.mesher);
+    desc.mesh_error_px = mesher_option_get_error_px(&arguments->view.mesher);
     const trl_rayleigh_desc rayleigh = rayleigh_choice_resolve(&arguments->view.rayleigh, scene);
     desc.rayleigh = &rayleigh;
     desc.spectrum = (trl_spectrum)arguments->spectrum;
@@ -294,6 +295,7 @@ static struct compare_desc make_comparison(struct app *app, const trl_scene *sce
         .rayleigh = rayleigh_choice_resolve(&arguments->view.rayleigh, scene),
         .mesher = mesher_option_get(&arguments->view.mesher),
         .projective = mesher_option_get_projective(&arguments->view.mesher),
+        .mesh_error_px = mesher_option_get_error_px(&arguments->view.mesher),
         .samples = sample_count(arguments),
         .output = arguments->output,
         .is_exr = strcasecmp(output_suffix(arguments->output), "exr") == 0};

@@ -87,21 +87,22 @@ static enum exit_status open_window(struct app *app, const struct view_arguments
         const trl_rayleigh_desc rayleigh =
             rayleigh_choice_resolve(&arguments->view.rayleigh, scene);
         const double frames = arguments->frames.is_given ? arguments->frames.value : 0.0;
-        struct viewer_desc desc = {.ctx = app->ctx,
-                                   .scene = scene,
-                                   .scene_path = arguments->scene,
-                                   .sky_model = arguments->view.sky_model,
-                                   .air = (trl_air)arguments->view.air,
-                                   .mesher = mesher_option_get(&arguments->view.mesher),
-                                   .projective =
-                                       mesher_option_get_projective(&arguments->view.mesher),
-                                   .rayleigh = &rayleigh,
-                                   .view = view,
-                                   .width = arguments->size.width,
-                                   .height = arguments->size.height,
-                                   .frame_limit = (uint64_t)frames,
-                                   .screenshot = arguments->screenshot,
-                                   .is_stopped = interrupt_is_pending};
+        struct viewer_desc desc = {
+            .ctx = app->ctx,
+            .scene = scene,
+            .scene_path = arguments->scene,
+            .sky_model = arguments->view.sky_model,
+            .air = (trl_air)arguments->view.air,
+            .mesher = mesher_option_get(&arguments->view.mesher),
+            .projective = mesher_option_get_projective(&arguments->view.mesher),
+            .mesh_error_px = mesher_option_get_error_px(&arguments->view.mesher),
+            .rayleigh = &rayleigh,
+            .view = view,
+            .width = arguments->size.width,
+            .height = arguments->size.height,
+            .frame_limit = (uint64_t)frames,
+            .screenshot = arguments->screenshot,
+            .is_stopped = interrupt_is_pending};
         if (desc.screenshot && desc.frame_limit == 0) {
             desc.frame_limit = 1;
         }

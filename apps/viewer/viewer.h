@@ -32,6 +32,7 @@ struct viewer_desc {
     trl_air air;            // to begin with
     trl_mesher mesher;      // to begin with
     trl_projective_desc projective;    // of that mesher
+    double mesh_error_px;              // as in trl_renderer_desc
     const trl_rayleigh_desc *rayleigh; // as in trl_renderer_desc
     trl_view view;                     // where it begins
     uint32_t width, height;            // of the window

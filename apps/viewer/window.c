@@ -229,6 +229,7 @@ static void fly_scene(struct viewer *viewer)
     desc.air = viewer->desc->air;
     desc.mesher = viewer->desc->mesher;
     desc.projective = viewer->desc->projective;
+    desc.mesh_error_px = viewer->desc->mesh_error_px;
     desc.rayleigh = viewer->desc->rayleigh;
     viewer->result = trl_renderer_create(viewer->desc->ctx, &desc, &viewer->renderer);
     if (viewer->result != TRL_OK || !controls_resolve(viewer, &viewer->desc->view, &viewer->view)) {

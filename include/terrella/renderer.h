@@ -83,6 +83,10 @@ typedef struct trl_projective_desc {
     trl_projective_rows placing;
 } trl_projective_desc;
 
+/// trl_renderer_desc.mesh_error_px.
+#define TRL_MESH_ERROR_MIN_PX 0.1
+#define TRL_MESH_ERROR_MAX_PX 100.0
+
 /// trl_renderer_desc.sky_model: what the scene asks for.
 #define TRL_SKY_MODEL_OF_SCENE (-1)
 
@@ -97,7 +101,9 @@ typedef struct trl_renderer_desc {
     int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
     trl_air air;            ///< default TRL_AIR_MARCH
     trl_mesher mesher;      ///< default TRL_MESHER_HEMISPHERE
-    trl_projective_desc projective;    ///< of TRL_MESHER_PROJECTIVE; default 320 x 320, by relief
+    trl_projective_desc projective; ///< of TRL_MESHER_PROJECTIVE; default 320 x 320, by relief
+    double mesh_error_px; ///< of TRL_MESHER_QUADTREE: the error of the mesh that may be seen, in
+                          ///< pixels, [TRL_MESH_ERROR_MIN_PX, TRL_MESH_ERROR_MAX_PX]; default 1.5
     const trl_rayleigh_desc *rayleigh; ///< for TRL_SKY_RAYLEIGH; copied; NULL (default): as the
                                        ///< scene asks
     bool measures_time;     ///< each draw waits for the GPU and fills trl_renderer_timings; default
@@ -275,6 +281,12 @@ TRL_API trl_mesher trl_renderer_mesher(const trl_renderer *renderer);
 ///         TRL_ERROR_GPU; on failure the old one stays
 TRL_API TRL_MUST_USE trl_result trl_renderer_set_projective(trl_renderer *renderer,
                                                             const trl_projective_desc *desc);
+
+/// The error of the mesh that TRL_MESHER_QUADTREE aims at from the next frame on. Less takes more
+/// triangles, up to a budget above which the error grows.
+/// @return TRL_OK; TRL_ERROR_INVALID (out of range, see trl_renderer_desc)
+TRL_API TRL_MUST_USE trl_result trl_renderer_set_mesh_error(trl_renderer *renderer,
+                                                            double error_px);
 
 /// What the mesh of the last frame took.
 typedef struct trl_mesh_stats {

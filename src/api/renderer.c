@@ -22,6 +22,7 @@ trl_renderer_desc trl_renderer_desc_default(void)
                                .air = TRL_AIR_MARCH,
                                .mesher = TRL_MESHER_HEMISPHERE,
                                .projective = projective_desc_default(),
+                               .mesh_error_px = 1.5,
                                .waits_for_rasters = true};
 }
 
@@ -42,7 +43,7 @@ static trl_result create_frame(trl_context *ctx, const trl_renderer_desc *desc, 
                                                                : (trl_sky_model)desc->sky_model,
         .rayleigh = desc->rayleigh ? *desc->rayleigh : desc->scene->rayleigh,
         .air = desc->air,
-        .meshing = {desc->mesher, desc->projective},
+        .meshing = {desc->mesher, desc->projective, desc->mesh_error_px},
         .measures_time = desc->measures_time,
         .waits_for_rasters = desc->waits_for_rasters};
     const trl_result result = frame_init(&frame, &renderer->frame);
@@ -71,6 +72,8 @@ trl_result trl_renderer_create(trl_context *ctx, const trl_renderer_desc *desc, 
     TRL_REQUIRE(ctx, trl_air_name(desc->air) != NULL);
     TRL_REQUIRE(ctx, trl_mesher_name(desc->mesher) != NULL);
     TRL_REQUIRE(ctx, projective_desc_is_good(&desc->projective));
+    TRL_REQUIRE(ctx, desc->mesh_error_px >= TRL_MESH_ERROR_MIN_PX &&
+                         desc->mesh_error_px <= TRL_MESH_ERROR_MAX_PX);
     const trl_result result = desc->rayleigh ? check_rayleigh(ctx, desc->rayleigh) : TRL_OK;
     return result == TRL_OK ? create_frame(ctx, desc, out) : result;
 }
@@ -333,6 +336,17 @@ trl_result trl_renderer_set_projective(trl_renderer *renderer, const trl_project
     TRL_REQUIRE(renderer->ctx, projective_desc_is_good(desc)); // sides even and in range
     const trl_result result = gpu_make_current(renderer->frame.gpu);
     return result == TRL_OK ? ground_set_projective(&renderer->frame.ground, desc) : result;
+}
+
+trl_result trl_renderer_set_mesh_error(trl_renderer *renderer, double error_px)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx,
+                error_px >= TRL_MESH_ERROR_MIN_PX && error_px <= TRL_MESH_ERROR_MAX_PX);
+    ground_set_mesh_error(&renderer->frame.ground, error_px);
+    return TRL_OK;
 }
 
 trl_mesher trl_renderer_mesher(const trl_renderer *renderer)

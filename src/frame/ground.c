@@ -99,6 +99,11 @@ trl_result ground_set_projective(struct ground *ground, const trl_projective_des
     return result;
 }
 
+void ground_set_mesh_error(struct ground *ground, double error_px)
+{
+    ground->mesh_error_px = error_px;
+}
+
 struct mesher_stats ground_mesher_stats(const struct ground *ground)
 {
     const struct mesher *mesher = ground->meshers[ground->mesher];
@@ -135,6 +140,7 @@ trl_result ground_init(struct gpu *gpu, const struct ground_desc *desc, struct g
     *out = (struct ground){.gpu = gpu,
                            .mesher = desc->meshing.mesher,
                            .projective = desc->meshing.projective,
+                           .mesh_error_px = desc->meshing.error_px,
                            .lights_cd_m2 = ground_find_lights_cd_m2(scene),
                            .region_m = 2 * medium_scattering_height(&scene->medium)};
     trl_result result = load_surface(gpu, desc, &out->surface);
@@ -244,6 +250,7 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
     frame_clock_part(clock, "vertices");
     struct mesher *mesher = ground->meshers[ground->mesher];
     if (result == TRL_OK) {
+        mesher->error_px = ground->mesh_error_px;
         result = mesher_update(mesher, camera);
     }
     if (result == TRL_OK) {

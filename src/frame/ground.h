@@ -28,6 +28,7 @@ struct ground {
     struct surface surface;
     trl_mesher mesher;                        // that frames are drawn with
     trl_projective_desc projective;           // options of that mesher
+    double mesh_error_px;                     // wanted of meshers that follow one
     struct mesher *meshers[MESHER_MAX_KINDS]; // by trl_mesher; made when first asked for; none when
                                               // bare, as the two passes below
     struct terrain_shadow shadow;
@@ -46,6 +47,7 @@ double ground_find_lights_cd_m2(const struct trl_scene *scene);
 struct ground_meshing {
     trl_mesher mesher;
     trl_projective_desc projective;
+    double error_px; // see trl_renderer_desc.mesh_error_px
 };
 
 struct ground_desc {
@@ -65,6 +67,9 @@ TRL_MUST_USE trl_result ground_set_mesher(struct ground *ground, trl_mesher mesh
 // old one.
 TRL_MUST_USE trl_result ground_set_projective(struct ground *ground,
                                               const trl_projective_desc *desc);
+
+// What meshers aim at from now on.
+void ground_set_mesh_error(struct ground *ground, double error_px);
 
 // Of the mesher that frames are drawn with; zeroed when bare.
 struct mesher_stats ground_mesher_stats(const struct ground *ground);

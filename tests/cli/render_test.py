@@ -144,6 +144,10 @@ class Traced(ProgramTest):
         self.expect_success(*self.words[:4], *projective, "64x48", "-o", "small.exr")
         self.expect_success(*self.words[:4], *projective, "640x480", "-o", "large.exr")
         self.assertTrue((self.work / "small.exr").read_bytes() != (self.work / "large.exr").read_bytes())
+        quadtree = ["--mesher", "quadtree", "--mesh-error"]
+        self.expect_success(*self.words[:4], *quadtree, "0.1", "-o", "fine.exr")
+        self.expect_success(*self.words[:4], *quadtree, "100", "-o", "coarse.exr")
+        self.assertTrue((self.work / "fine.exr").read_bytes() != (self.work / "coarse.exr").read_bytes())
         (self.data / "h.tif").write_bytes(b"not a picture at all")
         done = self.expect_success(*self.words, "-o", "left-out.exr")
         self.assertRegex(done.stderr, r"^terrella: warning: .*h\.tif.*; left out\n$")
@@ -156,6 +160,8 @@ class Traced(ProgramTest):
         for grid in ["15x16", "16x9999", "31x32"]:
             self.expect_failure(2, ["render", self.scene, "--mesher", "projective", "--grid", grid], ["--grid", grid])
         self.expect_failure(2, ["render", self.scene, "--mesher", "hemisphere", "--grid", "64x64"], ["--grid", "projective"])
+        self.expect_failure(2, ["render", self.scene, "--mesh-error", "2"], ["--mesh-error", "quadtree"])
+        self.expect_failure(2, ["render", self.scene, "--mesher", "quadtree", "--mesh-error", "0"], ["--mesh-error", "0.1"])
         for alone in [["--paths", "9"], ["--seed", "1"], ["--error", "e.exr"]]:
             self.expect_failure(2, ["render", self.scene] + alone, ["--reference", alone[0]])
         for other in [["--sky-model", "single"], ["--compare", "spectral,single"]]:

@@ -141,6 +141,22 @@ static void projective_grids_that_cannot_be_are_refused(void **state)
     assert_int_equal(trl_renderer_set_projective(s->renderer, &good), TRL_OK);
 }
 
+static void mesh_errors_that_cannot_be_are_refused(void **state)
+{
+    struct setup *s = *state;
+    const double bad[] = {0, -1, 0.01, 1000, NAN, INFINITY};
+    trl_renderer *out = s->renderer;
+    trl_renderer_desc desc = trl_renderer_desc_default();
+    desc.scene = s->scene;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        expect_invalid(s, trl_renderer_set_mesh_error(s->renderer, bad[i]));
+        desc.mesh_error_px = bad[i];
+        expect_invalid(s, trl_renderer_create(s->f->ctx, &desc, &out));
+    }
+    assert_int_equal(trl_renderer_set_mesh_error(s->renderer, 3), TRL_OK);
+    assert_int_equal(trl_renderer_set_mesh_error(NULL, 3), TRL_ERROR_INVALID);
+}
+
 static void wrong_sizes_are_refused(void **state)
 {
     struct setup *s = *state;
@@ -421,6 +437,7 @@ int main(void)
         cmocka_unit_test(wrong_descriptions_are_refused),
         cmocka_unit_test(meshers_have_names_and_others_are_refused),
         cmocka_unit_test(projective_grids_that_cannot_be_are_refused),
+        cmocka_unit_test(mesh_errors_that_cannot_be_are_refused),
         cmocka_unit_test(wrong_sizes_are_refused),
         cmocka_unit_test(views_with_wrong_numbers_are_refused),
         cmocka_unit_test(nothing_is_read_before_something_is_drawn),
