@@ -270,17 +270,44 @@ static trl_result update(struct mesher *base, const struct camera *camera)
     return TRL_OK;
 }
 
-// Curtains belong to the first range: they stand behind all ground, also that of a nearer one.
-static trl_result draw_ranges(struct quadtree *q, int level, const struct gpu_target *target)
+// Those that a range may show go first; how many they are.
+static uint32_t put_instances(struct quadtree *q, const struct depth_range *range)
 {
-    const struct gpu_mesh *mesh = &q->meshes[level];
+    uint32_t count = 0;
+    uint32_t inside = 0;
+    for (int is_outside = 0; is_outside < 2; is_outside++) {
+        for (uint32_t i = 0; i < q->leaves.count; i++) {
+            const struct quadtree_node *n = &q->nodes.all[q->leaves.all[i].node];
+            const double along =
+                vec3_dot(q->camera.forward, vec3_sub(n->origin_m, q->camera.position_m));
+            if (depth_range_holds(range, along, n->radius_m) == (is_outside == 0)) {
+                put_instance(q, &q->leaves.all[i], &q->instances[count++]);
+            }
+        }
+        inside = is_outside ? inside : count;
+    }
+    return inside;
+}
+
+// The first range has all squares, and their curtains: these stand behind all ground, also that of
+// a nearer range. The last one has what reaches into it.
+static trl_result draw_leaves(struct quadtree *q, int level, const struct gpu_target *target)
+{
+    struct gpu_mesh *mesh = &q->meshes[level];
     const struct depth_ranges ranges = depth_ranges_make(q->nodes.surface, &q->camera);
+    const uint32_t near = put_instances(q, &ranges.of[ranges.count - 1]);
     struct mesher_stats *stats = &q->base.stats;
     stats->triangles = stats->draws = 0;
-    trl_result result = TRL_OK;
+    stats->chunks = q->leaves.count;
+    stats->projections = q->nodes.made;
+    set_camera(q);
+    trl_result result = q->leaves.count > 0
+                            ? gpu_mesh_update_instances(mesh, q->instances, q->leaves.count)
+                            : TRL_OK;
     for (int i = 0; i < ranges.count && result == TRL_OK; i++) {
-        const struct gpu_draw_range range = {
-            0, i == 0 ? mesh->index_count : count_grid_indices(1u << level), q->leaves.count};
+        const struct gpu_draw_range all = {0, mesh->index_count, q->leaves.count};
+        const struct gpu_draw_range some = {0, count_grid_indices(1u << level), near};
+        const struct gpu_draw_range range = i == 0 ? all : some;
         depth_range_begin(&ranges, i, target, GPU_CULL_BACK);
         depth_range_bind(&ranges.of[i], &q->program);
         result = gpu_draw_mesh_range(&q->program, mesh, range, "terrain mesh");
@@ -288,21 +315,6 @@ static trl_result draw_ranges(struct quadtree *q, int level, const struct gpu_ta
         stats->draws += range.instances > 0;
     }
     return result;
-}
-
-static trl_result draw_leaves(struct quadtree *q, int level, const struct gpu_target *target)
-{
-    struct gpu_mesh *mesh = &q->meshes[level];
-    for (uint32_t i = 0; i < q->leaves.count; i++) {
-        put_instance(q, &q->leaves.all[i], &q->instances[i]);
-    }
-    q->base.stats.chunks = q->leaves.count;
-    q->base.stats.projections = q->nodes.made;
-    set_camera(q);
-    const trl_result result = q->leaves.count > 0
-                                  ? gpu_mesh_update_instances(mesh, q->instances, q->leaves.count)
-                                  : TRL_OK;
-    return result == TRL_OK ? draw_ranges(q, level, target) : result;
 }
 
 // Squares are chosen here and not when the camera moves: only the target knows what a pixel is.
