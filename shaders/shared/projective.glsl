@@ -84,12 +84,15 @@ SHARED_FN Angle projective_blended_angle(Angle omega, Number excess, Angle reach
     return primary + f * f * (reach - (0.5 * SHARED_PI - tangent));
 }
 
-// Rings around the nadir for v in [0, 1], up to gamma = `reach`: evenly spaced within `near`, and
-// beyond in proportion to the distance. `span` is asinh(reach / near).
-SHARED_FN Angle projective_ring(Number v, Angle near, Number span)
+// The part of all rings around the nadir that lie within gamma, up to `reach`. One half of them is
+// even within `near` and in proportion to the distance beyond, the other is even all the way, so
+// that no range of mountains far behind the horizon lies between two.
+SHARED_FN Number projective_rings_within(Angle gamma, Angle near, Angle reach)
 {
-    Number e = exp(v * span);
-    return 0.5 * near * (e - 1.0) * (1.0 + 1.0 / e);
+    Number x = gamma / near;
+    Number whole = reach / near;
+    Number logarithms = log(x + sqrt(x * x + 1.0)) / log(whole + sqrt(whole * whole + 1.0));
+    return 0.5 * (logarithms + gamma / reach);
 }
 
 #endif // SHARED_PROJECTIVE_GLSL

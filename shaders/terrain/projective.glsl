@@ -7,7 +7,7 @@
 // The viewer's altitude above the reference sphere as the sum of x and y, m; z that sphere's
 // radius, m; w the reach, rad.
 uniform vec4 u_eye;
-uniform vec3 u_rings;              // near and span of projective_ring, how many
+uniform highp sampler2D u_rings;   // gamma of each ring of probes, from 0 to the reach
 uniform highp sampler2D u_columns; // cosine and sine of the azimuth; range of omega in view
 
 // Of a point of the half plane of a column: distance from the vertical, depth below the viewer.
@@ -25,8 +25,12 @@ vec3 profile_direction(float gamma, vec2 azimuth)
     return vec3(sin(gamma) * azimuth, -2.0 * s * s);
 }
 
+int ring_count()
+{
+    return textureSize(u_rings, 0).x;
+}
+
 float ring_angle(int ring)
 {
-    float v = float(ring) / (u_rings.z - 1.0);
-    return v < 1.0 ? projective_ring(v, u_rings.x, u_rings.y) : u_eye.w;
+    return texelFetch(u_rings, ivec2(min(ring, ring_count() - 1), 0), 0).x;
 }

@@ -15,7 +15,7 @@ layout(location = 0) out float o_gamma;
 // the least in the picture.
 float find_gamma(float u)
 {
-    int rings = int(u_rings.z);
+    int rings = ring_count();
     float lowest = 1e9;
     for (int i = 0; i < rings; i++) {
         lowest = min(lowest, texelFetch(u_weights, ivec2(i, 0), 0).z);
@@ -37,13 +37,13 @@ vec3 find_weight(int ring)
 
 float find_gamma(float u)
 {
-    int rings = int(u_rings.z);
+    int rings = ring_count();
     vec2 sum = vec2(0.0);
     for (int i = 0; i < rings; i++) {
         sum += find_weight(i).yx;
     }
     vec2 share = u_rows.yz / max(sum, vec2(1e-9));
-    float even = max(1.0 - dot(share, sum), 0.0) / u_rings.z;
+    float even = max(1.0 - dot(share, sum), 0.0) / float(rings);
     float total = 0.0;
     for (int i = 1; i < rings; i++) {
         total += dot(share, 0.5 * (find_weight(i).yx + find_weight(i - 1).yx)) + even;
@@ -56,7 +56,8 @@ float find_gamma(float u)
         v += clamp((wanted - reached) / step, 0.0, 1.0);
         reached += step;
     }
-    return projective_ring(v / (u_rings.z - 1.0), u_rings.x, u_rings.y);
+    int ring = int(floor(v));
+    return mix(ring_angle(ring), ring_angle(ring + 1), v - floor(v));
 }
 #endif
 

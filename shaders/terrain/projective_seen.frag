@@ -45,7 +45,7 @@ void main()
     float ahead = dot(u_forward, vec3(sin(probe.x) * column.xy, -cos(probe.x)));
     float scale = 1.0 / (max(ahead, 0.2) * max(ahead, 0.2));
 
-    int last = int(u_rings.z) - 1;
+    int last = ring_count() - 1;
     vec2 at = find_probe(p);
     vec2 before = find_probe(ivec2(p.x, max(p.y - 1, 0)));
     vec2 after = find_probe(ivec2(p.x, min(p.y + 1, last)));

@@ -3,17 +3,18 @@
 #include "terrain/projective_rows.h"
 
 #include "gpu/pass.h"
+#include "shared/projective.glsl"
 
 #include <math.h>
 #include <stdio.h>
 
-enum { PROBE_COLUMNS = 32, RINGS = 256, BLOCK = 16 };
+enum { PROBE_COLUMNS = 32, RINGS = 384, BLOCK = 16 };
 _Static_assert(RINGS % BLOCK == 0, "projective_blocks.frag takes whole blocks");
 
 enum map { PROBES, HIGHEST, SEEN, WEIGHTS, ROWS };
 _Static_assert((int)ROWS + 1 == (int)PROJECTIVE_MAPS, "a pass for each map");
 
-// Rings lie evenly within this part of the height above the ground.
+// `near` of the rings, over the height above the ground.
 static const double EVEN_WITHIN = 0.5;
 // Rows: what follows the relief, what follows the picture; the rest is even over the rings.
 static const float CHORD_SHARE = 0.7f;
@@ -55,6 +56,44 @@ static trl_result make_maps(struct projective_rows *rows)
     return result;
 }
 
+static trl_result make_rings(struct projective_rows *rows)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "projective rings";
+    desc.format = GPU_FORMAT_R32F;
+    desc.filter = GPU_FILTER_NEAREST;
+    desc.width = RINGS;
+    return gpu_texture_init(rows->gpu, &desc, &rows->rings);
+}
+
+static double find_ring(double part, double near, double reach)
+{
+    double low = 0;
+    double high = reach;
+    for (int i = 0; i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        if (projective_rings_within(middle, near, reach) < part) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
+}
+
+static trl_result upload_rings(struct projective_rows *rows, const struct sampling_camera *s)
+{
+    const double near = EVEN_WITHIN * s->height_m / rows->surface->radius_m;
+    float angles[RINGS];
+    for (int i = 0; i < RINGS; i++) {
+        angles[i] = (float)find_ring(i / (RINGS - 1.0), near, s->reach_rad);
+    }
+    angles[0] = 0;
+    angles[RINGS - 1] = (float)s->reach_rad;
+    const struct gpu_region all = gpu_texture_region(&rows->rings, 0);
+    return gpu_texture_upload(&rows->rings, &all, angles);
+}
+
 static trl_result make_programs(struct projective_rows *rows)
 {
     static const char *const FILES[PROJECTIVE_MAPS] = {[HIGHEST] = "terrain/projective_blocks.frag",
@@ -85,6 +124,7 @@ trl_result projective_rows_init(const struct surface *surface,
     *out = (struct projective_rows){
         .gpu = surface->gpu, .surface = surface, .count = desc->count, .placing = desc->placing};
     trl_result result = make_maps(out);
+    result = result == TRL_OK ? make_rings(out) : result;
     result = result == TRL_OK ? make_programs(out) : result;
     if (result != TRL_OK) {
         projective_rows_finish(out);
@@ -100,6 +140,7 @@ void projective_rows_finish(struct projective_rows *rows)
         gpu_target_finish(&rows->maps[i].target);
         gpu_texture_finish(&rows->maps[i].texture);
     }
+    gpu_texture_finish(&rows->rings);
     *rows = (struct projective_rows){0};
 }
 
@@ -112,10 +153,8 @@ void projective_rows_bind(const struct projective_rows *rows,
     const float high = (float)altitude_m;
     const float eye[4] = {high, (float)(altitude_m - (double)high), (float)radius_m,
                           (float)s->reach_rad};
-    const double near = EVEN_WITHIN * s->height_m / radius_m;
-    const float rings[3] = {(float)near, (float)asinh(s->reach_rad / near), RINGS};
     gpu_program_set_vec4(program, "u_eye", eye);
-    gpu_program_set_vec3(program, "u_rings", rings);
+    gpu_program_set_texture(program, "u_rings", &rows->rings);
     gpu_program_set_texture(program, "u_columns", in->columns);
 }
 
@@ -144,7 +183,7 @@ trl_result projective_rows_draw(struct projective_rows *rows,
     const struct surface_eye layers = sampling_camera_eye(in->camera, rows->surface);
     struct gpu_program *probes = height_programs_bind(&rows->probes, &layers, &in->camera->anchor);
     set_inputs(rows, in, probes);
-    trl_result result = TRL_OK;
+    trl_result result = upload_rings(rows, in->camera);
     for (int i = 0; i < PROJECTIVE_MAPS && result == TRL_OK; i++) {
         struct gpu_program *program = i == PROBES ? probes : &rows->programs[i];
         projective_rows_bind(rows, in, program);

@@ -35,6 +35,7 @@ struct projective_rows {
     struct height_programs probes;
     struct gpu_program programs[PROJECTIVE_MAPS]; // of the maps behind the first
     struct projective_map maps[PROJECTIVE_MAPS];
+    struct gpu_texture rings; // R32F, gamma of each
 };
 
 struct projective_rows_desc {

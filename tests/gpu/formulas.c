@@ -214,7 +214,7 @@ static void projective_rays_agree(void **state)
                 projective_normal_angle(omega, tangent, excess),
                 projective_distance(omega, tangent, excess, (double)altitude[j]),
                 projective_blended_angle(omega, excess, reach, 0.5),
-                projective_ring((double)part[i], 0.001, 7)};
+                projective_rings_within((double)part[i], 0.001, 7)};
             for (int c = 0; c < 4; c++) {
                 // Mesa's atan is a polynomial that is off by 2e-5; each angle has two or three.
                 const double error = fabs((double)got.rgba[c] - wanted[c]);

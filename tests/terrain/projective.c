@@ -30,6 +30,25 @@ static double inset_height(double latitude, double longitude)
     return 900 + 600 * exp(-8 * (r - 1) * (r - 1)) - 1500 * exp(-2 * r * r) + ridges;
 }
 
+static double sea_height(double latitude, double longitude)
+{
+    (void)latitude;
+    (void)longitude;
+    return 0;
+}
+
+// Islands of 4 to 6 km, one kilometre wide, 25 to 95 km north of the equator.
+static double island_height(double latitude, double longitude)
+{
+    double height = 0;
+    for (int i = 0; i < 6; i++) {
+        const double x = (longitude - 30 - 0.4 * (i - 2.5)) * 17.45;
+        const double y = (latitude - 1.5 - 0.75 * i) * 17.45;
+        height += (4000 + 400 * i) * exp(-(x * x + y * y));
+    }
+    return height;
+}
+
 struct planet {
     struct fixture *f;
     struct surface surface;
@@ -37,14 +56,18 @@ struct planet {
     struct picture picture;
 };
 
-static void make_planet(struct fixture *f, const trl_projective_desc *grid, struct planet *p)
+typedef double heights_of(double latitude, double longitude);
+
+static void make_planet_of(struct fixture *f, const trl_projective_desc *grid,
+                           heights_of *const heights[2], struct planet *p)
 {
     char globe[128];
     char inset[128];
     const struct raster_place everywhere = {-180, 90, 0.5, 720, 360};
-    const struct raster_place somewhere = {28, 42, 0.01, 400, 400};
-    fixture_write_heights(f, "globe", &everywhere, globe_height, globe);
-    fixture_write_heights(f, "inset", &somewhere, inset_height, inset);
+    const bool is_sea = heights[0] == sea_height;
+    const struct raster_place somewhere = {28, is_sea ? 6 : 42, 0.01, 400, is_sea ? 600 : 400};
+    fixture_write_heights(f, "globe", &everywhere, heights[0], globe);
+    fixture_write_heights(f, "inset", &somewhere, heights[1], inset);
     const struct surface_layer_desc layers[2] = {
         {.kind = SURFACE_ELEVATION, .path = globe, .scale = 1},
         {.kind = SURFACE_ELEVATION, .path = inset, .scale = 1, .feather_rad = 0.5 * DEGREE}};
@@ -56,6 +79,12 @@ static void make_planet(struct fixture *f, const trl_projective_desc *grid, stru
     assert_int_equal(surface_init(f->gpu, &desc, &p->surface), TRL_OK);
     assert_int_equal(projective_create(&p->surface, grid, &p->mesher), TRL_OK);
     fixture_picture_init(f, &p->picture);
+}
+
+static void make_planet(struct fixture *f, const trl_projective_desc *grid, struct planet *p)
+{
+    heights_of *const heights[2] = {globe_height, inset_height};
+    make_planet_of(f, grid, heights, p);
 }
 
 static void make_default_planet(struct fixture *f, struct planet *p)
@@ -196,7 +225,7 @@ static bool meets_ground(const struct planet *p, const struct camera *camera, st
         if (clearance < 0) {
             return true;
         }
-        t += fmax(0.5 * clearance, fmax(1e-3 * t, 0.01));
+        t += fmax(0.1 * clearance, fmax(5e-4 * t, 0.01)); // slopes are below 10
     }
     return false;
 }
@@ -227,6 +256,30 @@ static void test_skyline_is_that_of_a_ray_caster(void **state)
         }
     }
     assert_true(skylines > 60);
+    destroy_planet(&p);
+}
+
+// Mountains far behind the horizon, no wider than a kilometre: seen by a place for every ring.
+static void test_islands_behind_the_horizon_are_not_missed(void **state)
+{
+    struct planet p;
+    heights_of *const heights[2] = {sea_height, island_height};
+    const trl_projective_desc grid = projective_desc_default();
+    make_planet_of(*state, &grid, heights, &p);
+    const struct shot shot = {"islands", {0.05, 30, 0, 0.5, 0, 3, 40}, 0};
+    const struct camera camera = place_camera(&p, &shot);
+    fixture_picture_draw(&p.picture, p.mesher, &camera);
+    int islands = 0;
+    for (int x = 0; x < PICTURE_SIDE; x++) {
+        int y = PICTURE_SIDE - 1;
+        while (y > 0 && !is_ground(&p, y * PICTURE_SIDE + x)) {
+            y--;
+        }
+        islands += y > PICTURE_SIDE / 2 - 10;
+        assert_true(meets_ground(&p, &camera, fixture_ray(&camera, x, y - 1)));
+        assert_false(meets_ground(&p, &camera, fixture_ray(&camera, x, y + 2)));
+    }
+    assert_true(islands > 15);
     destroy_planet(&p);
 }
 
@@ -423,6 +476,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_mesh_lies_on_the_ground_within_a_fraction_of_a_pixel),
         cmocka_unit_test(test_skyline_is_that_of_a_ray_caster),
+        cmocka_unit_test(test_islands_behind_the_horizon_are_not_missed),
         cmocka_unit_test(test_there_are_no_holes),
         cmocka_unit_test(test_every_grid_draws_the_same_ground),
         cmocka_unit_test(test_it_agrees_with_the_hemisphere),

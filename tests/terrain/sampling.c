@@ -112,10 +112,11 @@ static void test_rings_reach_from_the_nadir_to_the_end(void **state)
     (void)state;
     const double near[] = {1e-9, 1e-4, 10};
     for (size_t i = 0; i < 3; i++) {
-        const double span = asinh(0.3 / near[i]);
-        assert_close(projective_ring(0, near[i], span), 0, 1e-15);
-        assert_close(projective_ring(1, near[i], span), 0.3, 1e-9);
-        assert_close(projective_ring(0.5, near[i], span), near[i] * sinh(span / 2), 1e-9);
+        assert_close(projective_rings_within(0, near[i], 0.3), 0, 1e-15);
+        assert_close(projective_rings_within(0.3, near[i], 0.3), 1, 1e-12);
+        // A half is even.
+        const double middle = projective_rings_within(0.15, near[i], 0.3);
+        assert_close(middle, 0.25 + 0.5 * asinh(0.15 / near[i]) / asinh(0.3 / near[i]), 1e-9);
     }
 }
 

@@ -15,5 +15,5 @@ void main()
     o_color = vec4(projective_normal_angle(omega, tangent, excess),
                    projective_distance(omega, tangent, excess, u_ray.y),
                    projective_blended_angle(omega, excess, reach, 0.5),
-                   projective_ring(u_ray.x, 0.001, 7.0));
+                   projective_rings_within(u_ray.x, 0.001, 7.0));
 }
