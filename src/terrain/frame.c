@@ -44,6 +44,18 @@ static void place_stereographic(const struct raster_plane *plane, const struct r
     f->e2 = plane->e2;
 }
 
+// tan(theta / 2) is half the distance from the pole over the ellipsoid's factor, which depends on
+// the latitude that is sought: three steps leave 1e-10 of Earth's 0.3 %: a millimetre.
+static double find_angle_from_pole(const struct layer_frame *f, double distance)
+{
+    double tangent = distance / 2;
+    for (int i = 0; i < 3 && f->e2 > 0; i++) {
+        const double sine = (1 - tangent * tangent) / (1 + tangent * tangent);
+        tangent = distance / 2 / (1 + projection_ellipsoid(sine - 1, sine, 1, f->e2));
+    }
+    return 2 * atan(tangent);
+}
+
 // Corners and middles of the sides are the farthest from the middle, or nearly: 1 % more is ample.
 static void bound_frame(struct layer_frame *f)
 {
@@ -56,6 +68,11 @@ static void bound_frame(struct layer_frame *f)
         const struct vec3 at = vec3_from_lat_lon(g.latitude, g.longitude);
         const double chord = vec3_length(vec3_sub(at, f->direction));
         f->reach_rad = fmax(f->reach_rad, 1.01 * 2 * asin(fmin(1, chord / 2)));
+    }
+    if (f->pole != 0) {
+        const double farthest =
+            hypot(fabs(f->centre_x) + f->half_width, fabs(f->centre_y) + f->half_height);
+        f->least_latitude = SHARED_PI / 2 - 1.001 * find_angle_from_pole(f, farthest);
     }
     if (f->pole == 0 && f->half_width > 1) {
         f->reach_rad = SHARED_PI; // of wide ones the corners are not the farthest
@@ -118,18 +135,6 @@ struct layer_place layer_locate(const struct layer_frame *f, double latitude, do
     return (struct layer_place){.x = (x + f->half_width) / f->texel_width - 0.5,
                                 .y = (f->half_height - y) / f->texel_height - 0.5,
                                 .weight = weigh_border(inside, f->feather)};
-}
-
-// tan(theta / 2) is half the distance from the pole over the ellipsoid's factor, which depends on
-// the latitude that is sought: five steps leave less than 1e-12 of Earth's 0.3 %.
-static double find_angle_from_pole(const struct layer_frame *f, double distance)
-{
-    double angle = 2 * atan(distance / 2);
-    for (int i = 0; i < 5 && f->e2 > 0; i++) {
-        const double sine = cos(angle);
-        angle = 2 * atan(distance / 2 / (1 + projection_ellipsoid(sine - 1, sine, 1, f->e2)));
-    }
-    return angle;
 }
 
 struct layer_geo layer_geo_of(const struct layer_frame *f, double column, double row)

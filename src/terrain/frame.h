@@ -20,6 +20,7 @@ struct layer_frame {
     double pole;        // 1 north, -1 south; 0: equirectangular
     double longitude_0; // stereographic only: see struct raster_plane
     double e2;
+    double least_latitude; // stereographic: no place of it is farther from its pole
     struct vec3 direction; // unit: middle of a cap that holds all of it
     double reach_rad;      // angle of that cap; pi: everywhere
 };
@@ -33,6 +34,12 @@ struct layer_place {
 // Frame of an opened raster that is reduced to width x height texels.
 struct layer_frame layer_frame_of(const struct raster *raster, uint32_t width, uint32_t height,
                                   double feather);
+
+// True where a look at the latitude tells that a place is outside; spares layer_locate.
+static inline bool layer_is_beyond(const struct layer_frame *frame, double latitude)
+{
+    return frame->pole != 0 && frame->pole * latitude < frame->least_latitude;
+}
 
 struct layer_place layer_locate(const struct layer_frame *frame, double latitude, double longitude);
 

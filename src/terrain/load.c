@@ -40,11 +40,32 @@ double load_fill_height(const void *user, double latitude, double longitude)
     return blend_neutral(below->mode, altitude);
 }
 
+struct load_row {
+    uint32_t y;
+    uint8_t *mask;
+};
+
+// Of a mask that does not lie along the layer's rows, where the layer is below the sea.
+static void read_mask_places(const struct layer_frame *m, const uint8_t *mask,
+                             const struct terrain_layer *layer, struct load_row row)
+{
+    for (uint32_t x = 0; x < layer->frame.width; x++) {
+        if (layer_texel(layer, x, row.y) < 0) {
+            const struct layer_geo at = layer_geo_of(&layer->frame, x, row.y);
+            const struct layer_place p = layer_locate(m, at.latitude, at.longitude);
+            row.mask[x] =
+                p.weight > 0 ? mask[layer_texel_index(m, lrint(p.x), lrint(p.y))] : row.mask[x];
+        }
+    }
+}
+
 // What the last mask that covers a place says, along a row of a layer; 0 where none does.
-static void read_mask_row(const struct loader *loader, const struct layer_frame *f, uint32_t y,
-                          uint8_t *row)
+static void read_mask_row(const struct loader *loader, const struct terrain_layer *layer,
+                          uint32_t y, uint8_t *row)
 {
     const struct surface *s = loader->surface;
+    const struct layer_frame *f = &layer->frame;
+    memset(row, 0, f->width);
     for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
         const struct layer_frame *m = &s->layers[SURFACE_WATER][i].frame;
         const struct layer_geo west = layer_geo_of(f, 0, y);
@@ -62,12 +83,8 @@ static void read_mask_row(const struct loader *loader, const struct layer_frame 
             const uint32_t column = (uint32_t)(first.x + 0.5 + x * step);
             row[x] = texels[column < m->width ? column : column - m->width];
         }
-        for (uint32_t x = 0; x < f->width && !is_row; x++) {
-            const struct layer_geo at = layer_geo_of(f, x, y);
-            const struct layer_place p = layer_locate(m, at.latitude, at.longitude);
-            row[x] = p.weight > 0
-                         ? loader->surface->masks[i][layer_texel_index(m, lrint(p.x), lrint(p.y))]
-                         : row[x];
+        if (!is_row) {
+            read_mask_places(m, s->masks[i], layer, (struct load_row){y, row});
         }
     }
 }
@@ -108,7 +125,7 @@ trl_result load_raise_sea(const struct loader *loader, struct terrain_layer *lay
 #pragma omp for schedule(dynamic, 64)
         for (uint32_t y = 0; y < layer->frame.height; y++) {
             if (mask) {
-                read_mask_row(loader, &layer->frame, y, mask);
+                read_mask_row(loader, layer, y, mask);
                 raise_row(&layer->frame, &layer->heights, y, mask);
             }
         }

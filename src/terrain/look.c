@@ -31,6 +31,9 @@ bool surface_picture(const struct surface *surface, enum surface_kind kind, stru
     double root[3] = {sqrt(rgb[0]), sqrt(rgb[1]), sqrt(rgb[2])};
     for (size_t i = 0; i < surface->counts[kind]; i++) {
         const struct terrain_layer *layer = &surface->layers[kind][i];
+        if (layer_is_beyond(&layer->frame, at.latitude)) {
+            continue;
+        }
         const struct layer_place place = layer_locate(&layer->frame, at.latitude, at.longitude);
         if (!(place.weight > 0) || !(layer->roots || layer->tiles)) {
             continue;

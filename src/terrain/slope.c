@@ -63,8 +63,11 @@ void slope_lay_over(const struct terrain_layer *layer, struct vec3 up, double ra
                     struct slope *s)
 {
     const struct layer_frame *f = layer_finest_frame(layer);
-    const struct layer_place place =
-        layer_locate(f, atan2(up.z, hypot(up.x, up.y)), atan2(up.y, up.x));
+    const double latitude = atan2(up.z, hypot(up.x, up.y));
+    if (layer_is_beyond(f, latitude)) {
+        return;
+    }
+    const struct layer_place place = layer_locate(f, latitude, atan2(up.y, up.x));
     if (!(place.weight > 0)) {
         return;
     }

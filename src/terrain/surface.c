@@ -14,6 +14,9 @@ static double lay_over(const struct surface *s, double below, double latitude, d
     double altitude = below;
     for (size_t i = 0; i < s->counts[SURFACE_ELEVATION]; i++) {
         const struct terrain_layer *layer = &s->layers[SURFACE_ELEVATION][i];
+        if (layer_is_beyond(&layer->frame, latitude)) {
+            continue;
+        }
         const struct layer_place place = layer_locate(&layer->frame, latitude, longitude);
         if (place.weight > 0) {
             const double height = layer_sample(layer, place.x, place.y);
