@@ -257,6 +257,36 @@ static void a_surface_that_does_not_wait_comes_to_the_same(void **state)
     surface_finish(&tiled);
 }
 
+// One step of the camera, and more is read than it shows: what twelve such steps lead to.
+static void tiles_ahead_of_the_camera_are_read(void **state)
+{
+    const struct fixture *f = *state;
+    struct files files;
+    write_files(f, &LARGE_GLOBE, &files);
+    struct surface_desc desc = describe(&files, TILED);
+    desc.waits = false;
+    struct surface tiled;
+    assert_int_equal(surface_init(f->gpu, &desc, &tiled), TRL_OK);
+    struct camera_place place = {10, -60, RADIUS_M, 20000, 90, -20, 60};
+    const struct camera here = fixture_camera(&place);
+    for (int i = 0; i < 5000 && (i == 0 || !surface_is_settled(&tiled)); i++) {
+        usleep(2000);
+        assert_int_equal(surface_update(&tiled, &here, pixel_of(&here)), TRL_OK);
+    }
+    const uint64_t before = tile_cache_stats(tiled.stream->cache).loaded;
+    place.longitude += 0.25; // 8.6 km
+    const struct camera there = fixture_camera(&place);
+    assert_int_equal(surface_update(&tiled, &there, pixel_of(&there)), TRL_OK);
+    const uint64_t shown = tiled.stream->missing;
+    uint64_t loaded = 0;
+    for (int i = 0; i < 1000 && loaded <= shown; i++) {
+        usleep(5000);
+        loaded = tile_cache_stats(tiled.stream->cache).loaded - before;
+    }
+    assert_true(loaded > shown);
+    surface_finish(&tiled);
+}
+
 static void a_flight_stays_within_the_budget(void **state)
 {
     const struct fixture *f = *state;
@@ -318,6 +348,7 @@ int main(void)
         TEST(views_are_those_of_whole_rasters),
         TEST(meshes_follow_what_comes),
         TEST(a_surface_that_does_not_wait_comes_to_the_same),
+        TEST(tiles_ahead_of_the_camera_are_read),
         TEST(a_flight_stays_within_the_budget),
         TEST(what_is_cut_off_is_drawn_coarsely),
     };
