@@ -154,7 +154,7 @@ enum options_outcome view_command_read(const struct view_command *command, int a
                            "camera, Michelic 2019), tessellated (the same divided by the GPU's "
                            "tessellation), projective (rays around the camera, laid on the planet "
                            "in every frame, PGM) or quadtree (tiles split where the ground is near "
-                           "and rough, Schafhitzel 2007). Default: hemisphere."),
+                           "and rough, Schafhitzel 2007). Default: quadtree."),
         mesher_option_make_grid(&command->choice->mesher),
         mesher_option_make_error(&command->choice->mesher)};
     const struct option_section sections[] = {

@@ -100,7 +100,7 @@ typedef struct trl_renderer_desc {
                             ///< light may have, at most TRL_SKY_MAX_ORDERS; 0 (default): all
     int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
     trl_air air;            ///< default TRL_AIR_MARCH
-    trl_mesher mesher;      ///< default TRL_MESHER_HEMISPHERE
+    trl_mesher mesher;      ///< default TRL_MESHER_QUADTREE
     trl_projective_desc projective; ///< of TRL_MESHER_PROJECTIVE; default 320 x 320, by relief
     double mesh_error_px; ///< of TRL_MESHER_QUADTREE: the error of the mesh that may be seen, in
                           ///< pixels, [TRL_MESH_ERROR_MIN_PX, TRL_MESH_ERROR_MAX_PX]; default 1.5

@@ -20,7 +20,7 @@ trl_renderer_desc trl_renderer_desc_default(void)
                                .wavelengths = 16,
                                .sky_model = TRL_SKY_MODEL_OF_SCENE,
                                .air = TRL_AIR_MARCH,
-                               .mesher = TRL_MESHER_HEMISPHERE,
+                               .mesher = TRL_MESHER_QUADTREE,
                                .projective = projective_desc_default(),
                                .mesh_error_px = 1.5,
                                .waits_for_rasters = true};
@@ -351,7 +351,7 @@ trl_result trl_renderer_set_mesh_error(trl_renderer *renderer, double error_px)
 
 trl_mesher trl_renderer_mesher(const trl_renderer *renderer)
 {
-    return renderer ? renderer->frame.ground.mesher : TRL_MESHER_HEMISPHERE;
+    return renderer ? renderer->frame.ground.mesher : trl_renderer_desc_default().mesher;
 }
 
 trl_result trl_renderer_mesh_stats(const trl_renderer *renderer, trl_mesh_stats *out)

@@ -376,7 +376,8 @@ static void checker_finish(struct checker *c)
 static trl_result checker_init(const struct mesh_check_desc *desc, struct checker *c)
 {
     const size_t count = (size_t)c->check->columns * c->check->rows;
-    c->finer = c->hits ? FINER : 1;
+    // Meshers may look at a pixel's area: that of the picture's, nearly, also between places.
+    c->finer = c->hits ? FINER : (desc->step * desc->step) | 1;
     c->fine_rows = c->check->rows * c->finer;
     c->drawn = mem_alloc(desc->ctx, count * c->finer, 4 * sizeof *c->drawn);
     c->edges_y = mem_alloc(desc->ctx, count, sizeof *c->edges_y);

@@ -160,7 +160,8 @@ class Traced(ProgramTest):
         for grid in ["15x16", "16x9999", "31x32"]:
             self.expect_failure(2, ["render", self.scene, "--mesher", "projective", "--grid", grid], ["--grid", grid])
         self.expect_failure(2, ["render", self.scene, "--mesher", "hemisphere", "--grid", "64x64"], ["--grid", "projective"])
-        self.expect_failure(2, ["render", self.scene, "--mesh-error", "2"], ["--mesh-error", "quadtree"])
+        self.expect_failure(2, ["render", self.scene, "--mesher", "hemisphere", "--mesh-error", "2"],
+                            ["--mesh-error", "quadtree"])
         self.expect_failure(2, ["render", self.scene, "--mesher", "quadtree", "--mesh-error", "0"], ["--mesh-error", "0.1"])
         for alone in [["--paths", "9"], ["--seed", "1"], ["--error", "e.exr"]]:
             self.expect_failure(2, ["render", self.scene] + alone, ["--reference", alone[0]])
