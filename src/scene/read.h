@@ -49,6 +49,9 @@ TRL_MUST_USE trl_result scene_read_views(const struct scene_node *root, struct t
 TRL_MUST_USE trl_result scene_read_noise(const struct scene_node *node, struct scene_noise *out);
 TRL_MUST_USE trl_result scene_read_biomes(const struct scene_node *surface, struct trl_scene *out);
 
+// ocean and planet.gravity_m_s2 of the root; both may be missing.
+TRL_MUST_USE trl_result scene_read_ocean(const struct scene_node *root, struct ocean_desc *out);
+
 // stars of the root; they may be missing.
 TRL_MUST_USE trl_result scene_read_stars(const struct scene_node *root, struct trl_scene *out);
 

@@ -116,7 +116,7 @@ static trl_result read_star(const struct scene_node *node, struct medium *out)
 
 static trl_result read_planet(const struct scene_node *node, struct medium *out)
 {
-    const char *const keys[] = {"radius_m", "ground_albedo", NULL};
+    const char *const keys[] = {"radius_m", "ground_albedo", "gravity_m_s2", NULL};
     trl_result result = scene_node_check_keys(node, keys);
     const struct scene_node radius = scene_node_member(node, "radius_m");
     const struct scene_node albedo = scene_node_member(node, "ground_albedo");

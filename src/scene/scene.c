@@ -58,7 +58,7 @@ static trl_result read_root(const struct scene_node *root, struct trl_scene *sce
     // Editors find the schema by "$schema"; it says nothing to the reader.
     const char *const keys[] = {"$schema",    "terrella", "name",  "star",      "planet",
                                 "atmosphere", "surface",  "views", "sky_model", "bodies",
-                                "rayleigh",   "stars",    NULL};
+                                "rayleigh",   "stars",    "ocean", NULL};
     const struct scene_node schema = scene_node_member(root, "$schema");
     const char *ignored = NULL;
     trl_result result = scene_node_check_keys(root, keys);
@@ -82,6 +82,9 @@ static trl_result read_root(const struct scene_node *root, struct trl_scene *sce
     }
     if (result == TRL_OK) {
         result = scene_read_layers(root, scene);
+    }
+    if (result == TRL_OK) {
+        result = scene_read_ocean(root, &scene->ocean);
     }
     if (result == TRL_OK) {
         result = scene_read_stars(root, scene);
@@ -171,6 +174,7 @@ void trl_scene_destroy(trl_scene **scene)
     trl_scene *s = *scene;
     const trl_context *ctx = s->ctx;
     medium_finish(ctx, &s->medium);
+    ocean_desc_finish(ctx, &s->ocean);
     for (size_t i = 0; i < s->layer_count; i++) {
         mem_free(ctx, s->layers[i].name);
         mem_free(ctx, s->layers[i].file);

@@ -303,6 +303,37 @@ static void detail_is_read_and_has_defaults(void **state)
     trl_scene_destroy(&s);
 }
 
+static void an_ocean_is_read_and_has_defaults(void **state)
+{
+    trl_scene *scene = parse_with(*state, "\"views\"", "\"views\"");
+    assert_false(scene->ocean.is_there);
+    assert_near(scene->ocean.gravity_m_s2, 9.81);
+    trl_scene_destroy(&scene);
+    scene = parse_with(*state, "\"views\"", "\"ocean\": {}, \"views\"");
+    assert_true(scene->ocean.is_there);
+    assert_near(scene->ocean.waves.wind_m_s, 8);
+    assert_near(scene->ocean.waves.fetch_m, 3e5);
+    assert_int_equal(scene->ocean.waves.count, 60);
+    assert_true(scene->ocean.waves.mean_square_slope < 0 && scene->ocean.bed.depth_m < 0);
+    trl_scene_destroy(&scene);
+    scene = parse_with(
+        *state, "\"views\"",
+        "\"ocean\": { \"waves\": { \"fetch_km\": 20, \"spectrum\": \"pierson_moskowitz\","
+        " \"wind_from_deg\": 90, \"seed\": 4294967295 },"
+        " \"water\": { \"kind\": \"fresh\", \"absorption_per_m\": [[400, 0.1], [500, 0.2]] },"
+        " \"bed\": { \"depth_m\": 3, \"albedo\": 0.5 } }, \"views\"");
+    assert_near(scene->ocean.waves.fetch_m, 2e4);
+    assert_near(scene->ocean.waves.wind_from_rad, 90 * 3.14159265358979323846 / 180);
+    assert_int_equal(scene->ocean.waves.spectrum, OCEAN_PIERSON_MOSKOWITZ);
+    assert_int_equal(scene->ocean.waves.seed, 4294967295);
+    assert_int_equal(scene->ocean.water.kind, OCEAN_FRESH);
+    assert_true(scene->ocean.water.has_absorption && !scene->ocean.water.has_scattering);
+    assert_near(spectrum_at(&scene->ocean.water.absorption_per_m, 450), 0.15);
+    assert_near(scene->ocean.bed.depth_m, 3);
+    assert_near(spectrum_at(&scene->ocean.bed.albedo, 550), 0.5);
+    trl_scene_destroy(&scene);
+}
+
 static void layers_are_read(void **state)
 {
     trl_scene *s = parse_with(
@@ -440,6 +471,7 @@ int main(void)
         cmocka_unit_test(spheres_have_the_optical_depth_that_is_asked_for),
         cmocka_unit_test(comments_are_allowed_in_any_object),
         cmocka_unit_test(detail_is_read_and_has_defaults),
+        cmocka_unit_test(an_ocean_is_read_and_has_defaults),
         cmocka_unit_test(layers_are_read),
         cmocka_unit_test(views_are_read),
         cmocka_unit_test(files_are_found_beside_the_scene),

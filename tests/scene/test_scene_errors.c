@@ -312,6 +312,27 @@ static void faults_of_bodies_are_told(void **state)
     ASSERT_ERRORS(state, cases);
 }
 
+static void faults_of_the_ocean_are_told(void **state)
+{
+    const struct error_case cases[] = {
+        {"0.1 },\n  \"atm", "0.1, \"gravity_m_s2\": -1 },\n  \"atm",
+         "t.json:3:74: planet.gravity_m_s2: is -1; must be "},
+        {"\"views\"", "\"ocean\": { \"wave\": {} }, \"views\"",
+         "t.json:9:14: ocean.wave: unknown key; the nearest known one is \"waves\""},
+        {"\"views\"", "\"ocean\": { \"waves\": { \"wind_m_s\": 99 } }, \"views\"",
+         "t.json:9:37: ocean.waves.wind_m_s: is 99; must be "},
+        {"\"views\"", "\"ocean\": { \"waves\": { \"count\": 2.5 } }, \"views\"",
+         "t.json:9:34: ocean.waves.count: is 2.5; must be a whole number"},
+        {"\"views\"", "\"ocean\": { \"waves\": { \"spectrum\": \"x\" } }, \"views\"",
+         "t.json:9:37: ocean.waves.spectrum: "},
+        {"\"views\"", "\"ocean\": { \"water\": { \"refractive_index\": 1 } }, \"views\"",
+         "t.json:9:45: ocean.water.refractive_index: is 1; must be "},
+        {"\"views\"", "\"ocean\": { \"bed\": { \"albedo\": [[500, 2]] } }, \"views\"",
+         "t.json:9:40: ocean.bed.albedo[0][1]: is 2; must be "},
+    };
+    ASSERT_ERRORS(state, cases);
+}
+
 static void every_truncation_is_one_error(void **state)
 {
     struct fixture *f = *state;
@@ -382,6 +403,7 @@ int main(void)
         cmocka_unit_test(phase_functions_by_wavelength_that_cannot_be_are_named),
         cmocka_unit_test(files_that_could_be_fetched_are_refused),
         cmocka_unit_test(faults_of_bodies_are_told),
+        cmocka_unit_test(faults_of_the_ocean_are_told),
         cmocka_unit_test(every_truncation_is_one_error),
         cmocka_unit_test(other_roots_are_refused),
         cmocka_unit_test(sizes_are_bounded),
