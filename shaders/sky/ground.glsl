@@ -22,9 +22,11 @@ struct Ground {
     vec3 normal;
     float star_visible; // share of the star's disc that terrain leaves
 #ifdef SURFACE
-    vec3 albedo; // linear sRGB
-    vec3 region; // the same, mean around
-    vec3 lights; // linear sRGB, of white
+    vec3 albedo;      // linear sRGB
+    vec3 region;      // the same, mean around
+    vec3 lights;      // linear sRGB, of white
+    float water;      // part that is open water
+    float depth_code; // of that water: shared/sea.glsl
 #endif
 };
 
@@ -46,6 +48,8 @@ Ground find_ground(out Ray ray)
     vec4 region = texelFetch(u_region, ivec2(gl_FragCoord.xy), 0);
     ground.region = region.rgb * region.rgb;
     ground.lights = lights.rgb * lights.rgb;
+    ground.water = albedo.a;
+    ground.depth_code = lights.a;
     return ground;
 }
 #else

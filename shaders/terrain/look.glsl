@@ -8,6 +8,7 @@
 struct Look {
     vec3 root; // square root of the albedo
     float water;
+    float depth; // of the water, as a code of shared/sea.glsl
     vec3 normal; // local axes
     vec3 region; // square root of the albedo of the region around
 };
@@ -46,11 +47,16 @@ Look find_look(Tangent t, LookPlace p)
     slope -= t.up * dot(slope, t.up);
     float steep = length(slope);
     Look look;
-    look.water = terrain_water(t.ground, t.log2_footprint);
+    vec2 water = terrain_water(t.ground, t.log2_footprint);
+    look.water = water.x;
+    look.depth = water.y;
     vec3 albedo = u_default_albedo;
     vec3 region = u_default_albedo;
 #ifdef HAS_GROUND
     float sea = look_sea(r.height, steep * steep + r.unseen, exp2(t.log2_footprint));
+#ifdef HAS_DEPTH
+    look.depth = sea > look.water ? sea_depth_code(u_noise_form.w - r.height) : look.depth;
+#endif
     look.water = max(look.water, sea);
 #endif
 #ifdef HAS_BIOMES
@@ -81,8 +87,9 @@ Look find_look(Tangent t, LookPlace p)
     vec4 flat_ground = vec4(0.0, 0.0, 0.0, SLOPE_NO_DATA);
     vec4 slope = terrain_slope(layers_slope(flat_ground, 0.0, t), t);
     vec3 root = sqrt(u_default_albedo);
-    return Look(terrain_albedo(root, t.ground, t.log2_footprint),
-                terrain_water(t.ground, t.log2_footprint), normalize(t.up - slope.xyz),
+    vec2 water = terrain_water(t.ground, t.log2_footprint);
+    return Look(terrain_albedo(root, t.ground, t.log2_footprint), water.x, water.y,
+                normalize(t.up - slope.xyz),
                 terrain_albedo(root, t.ground, max(t.log2_footprint, u_region)));
 }
 #endif

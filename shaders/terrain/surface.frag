@@ -11,6 +11,7 @@
 // validate: ELEVATION_COUNT 1; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; NORMAL_COUNT 1
 // validate: ELEVATION_COUNT 2; COLOUR_COUNT 2; WATER_COUNT 1; LIGHTS_COUNT 1; HAS_PAGES
 // validate: ELEVATION_COUNT 2; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_GAPS
+// validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; HAS_DEPTH; HAS_NOISE
 #ifndef NORMAL_COUNT
 #define NORMAL_COUNT 0
 #endif
@@ -101,12 +102,13 @@ vec3 layer_over_picture(vec3 below, sampler2D picture, LayerFrame frame, float m
     return mix(below, value, c.w * at.z);
 }
 
-float layer_over_mask(float below, sampler2D mask, LayerFrame frame, float mode, Ground g,
-                      float log2_footprint)
+// Of a mask the part that is water, and where it tells depths the code of shared/sea.glsl.
+vec2 layer_over_mask(vec2 below, sampler2D mask, LayerFrame frame, float mode, Ground g,
+                     float log2_footprint)
 {
     vec3 at = layer_locate(frame, g);
-    return layer_blend(mode, below,
-                       layer_fetch(mask, frame, at.xy, log2_footprint - frame.texel.z).x, at.z);
+    vec2 texel = layer_fetch(mask, frame, at.xy, log2_footprint - frame.texel.z).xy;
+    return vec2(layer_blend(mode, below.x, texel.x, at.z), mix(below.y, texel.y, at.z));
 }
 
 // A picture of normals: red to the map's right, green up, blue out of it, each -1 to 1.
@@ -161,9 +163,9 @@ vec3 terrain_albedo(vec3 below, Ground g, float log2_footprint)
     return c;
 }
 
-float terrain_water(Ground g, float log2_footprint)
+vec2 terrain_water(Ground g, float log2_footprint)
 {
-    float w = 0.0;
+    vec2 w = vec2(0.0);
 #if WATER_COUNT > 0
     w = layer_over_mask(w, u_water0, LAYER_FRAME(u_water, 0), u_water_modes.x, g, log2_footprint);
 #endif
@@ -201,6 +203,10 @@ vec3 terrain_lights(Ground g, float log2_footprint)
     return c;
 }
 
+#ifdef HAS_DEPTH
+#include "shared/sea.glsl"
+uniform float u_sea_depth; // code of the depth everywhere; below 0: there is none
+#endif
 #include "terrain/look.glsl"
 
 void main()
@@ -229,6 +235,11 @@ void main()
     float sun = terrain_sun_visibility(p.xyz, p.w);
     // A row times a matrix: the transpose turns local axes back into the planet's.
     o_normal_sun = is_ground * vec4(look.normal * u_local_from_planet, sun);
-    o_lights = is_ground * vec4(terrain_lights(tangent.ground, log2_footprint), 1.0);
+#ifdef HAS_DEPTH
+    float depth = u_sea_depth < 0.0 ? look.depth : u_sea_depth;
+#else
+    float depth = 1.0;
+#endif
+    o_lights = is_ground * vec4(terrain_lights(tangent.ground, log2_footprint), depth);
     o_region = is_ground * vec4(look.region, 1.0);
 }

@@ -3,6 +3,7 @@
 #include "frame/frame.h"
 
 #include "frame/daylight.h"
+#include "frame/sea.h"
 #include "scatter/medium_edit.h"
 
 #include <inttypes.h>
@@ -52,6 +53,7 @@ static struct sky_desc describe_sky(const struct frame *frame)
                              .wavelengths = frame->wavelengths,
                              .orders = frame->orders,
                              .rayleigh = &frame->rayleigh,
+                             .sea = &frame->sea,
                              .body_count = frame->scene->body_count,
                              .bodies = frame->bodies};
 }
@@ -136,6 +138,7 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
                           .orders = desc->orders,
                           .rayleigh = desc->rayleigh};
     describe_bodies(out);
+    frame_describe_sea(desc->scene, &out->sea);
     trl_result result = medium_copy(desc->ctx, &desc->scene->medium, &out->medium);
     if (result == TRL_OK) {
         out->glow_m = find_glow_m(&out->medium);

@@ -49,7 +49,8 @@ struct frame {
     struct sky skies[SKY_MODELS]; // by trl_sky_model; made when first asked for
     struct space space;
     struct body_desc bodies[SCENE_MAX_BODIES]; // the scene's
-    trl_sky_model sky_model;                   // that frames are drawn with
+    struct sky_sea sea;
+    trl_sky_model sky_model; // that frames are drawn with
     struct sky_spheres spheres;
     trl_air air;
     uint32_t wavelengths, orders;

@@ -54,6 +54,7 @@ void ground_describe(const trl_context *ctx, const struct trl_scene *scene,
     out->layer_count = scene->layer_count;
     out->layers = layers;
     out->exaggeration = scene->exaggeration;
+    out->depth = (struct surface_depth){scene->ocean.is_there, scene->ocean.bed.depth_m};
     out->max_bytes = 1e6 * ctx->desc.raster_mb;
     out->detail = (struct surface_detail){scene->detail.roughness, scene->detail.albedo_variation,
                                           scene->detail.smallest_m};

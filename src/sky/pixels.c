@@ -11,14 +11,15 @@ trl_result sky_pixels_init(const struct sky_desc *desc, double disc_rad, struct 
     *out = (struct sky_pixels){.gpu = desc->gpu,
                                .ground_radius_m = desc->medium->ground_radius_m,
                                .top_radius_m = desc->medium->top_radius_m,
+                               .has_sea = desc->sea && desc->sea->is_there,
                                .disc_rad = disc_rad,
                                .shown_rad = disc_rad};
-    const char *const surface[] = {"SURFACE"};
+    const char *const surface[] = {"SURFACE", "SEA"};
     struct gpu_program_desc program = {.vertex = "sky/layer.vert", .fragment = "sky/sort.frag"};
     trl_result result = gpu_program_init(desc->gpu, &program, &out->sort_bare);
     if (result == TRL_OK) {
         program.defines = surface;
-        program.define_count = 1;
+        program.define_count = out->has_sea ? 2 : 1;
         result = gpu_program_init(desc->gpu, &program, &out->sort_surface);
     }
     if (result != TRL_OK) {
@@ -191,6 +192,7 @@ trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct sky_view *vie
     sky_pixels_set_view(pixels, program, view);
     if (!is_bare) {
         gpu_program_set_texture(program, "u_position", view->surface.position);
+        gpu_program_set_texture(program, "u_albedo", view->surface.albedo);
     }
     gpu_program_set_float(program, "u_depth", 0.5f);
     gpu_pass_begin(pixels->gpu, &pass);
@@ -202,7 +204,9 @@ trl_result sky_pixels_draw(const struct sky_pixels *pixels, struct gpu_program *
 {
     struct gpu_pass pass = {.target = view->target,
                             .state = {.depth = GPU_DEPTH_NEARER,
-                                      .blend = view->is_added ? GPU_BLEND_ADD : GPU_BLEND_NONE}};
+                                      .blend = view->is_added || kind == SKY_KIND_SEA
+                                                   ? GPU_BLEND_ADD
+                                                   : GPU_BLEND_NONE}};
     if (kind == SKY_KIND_STAR) {
         const struct camera *camera = view->camera;
         pass.scissor =
@@ -212,14 +216,18 @@ trl_result sky_pixels_draw(const struct sky_pixels *pixels, struct gpu_program *
         }
     }
     sky_pixels_set_view(pixels, program, view);
-    if (kind == SKY_KIND_GROUND) {
+    if (kind == SKY_KIND_GROUND || kind == SKY_KIND_SEA) {
         pass.state.depth = GPU_DEPTH_FARTHER;
         if (!sky_view_is_bare(view)) {
             set_surface(program, &view->surface);
         }
     }
-    // Between the depths of sort.frag: air is at 0, space at 1/2, ground at 1.
-    gpu_program_set_float(program, "u_depth", kind == SKY_KIND_AIR ? 0.25f : 0.75f);
+    // Between the depths of sort.frag: air is at 0, space at 1/2, ground above 7/8, water at 1.
+    static const float DEPTHS[] = {[SKY_KIND_AIR] = 0.25f,
+                                   [SKY_KIND_STAR] = 0.75f,
+                                   [SKY_KIND_GROUND] = 0.75f,
+                                   [SKY_KIND_SEA] = 0.9375f};
+    gpu_program_set_float(program, "u_depth", DEPTHS[kind]);
     gpu_pass_begin(pixels->gpu, &pass);
     return gpu_draw_fullscreen(program, "sky");
 }

@@ -11,9 +11,10 @@
 #include "sky/sky.h"
 
 enum sky_kind {
-    SKY_KIND_AIR,   // no ground: air before space
-    SKY_KIND_STAR,  // the same where the star's disc may be, and space: drawn over the air
-    SKY_KIND_GROUND // lit ground behind air
+    SKY_KIND_AIR,    // no ground: air before space
+    SKY_KIND_STAR,   // the same where the star's disc may be, and space: drawn over the air
+    SKY_KIND_GROUND, // lit ground behind air
+    SKY_KIND_SEA     // the part of it that is open water: drawn over the ground
 };
 
 struct sky_pixels {
@@ -21,6 +22,7 @@ struct sky_pixels {
     double ground_radius_m, top_radius_m;
     double disc_rad;  // angular radius of the star
     double shown_rad; // up to where its pixels show more than air: the disc, or a corona
+    bool has_sea;
     struct gpu_program sort_bare, sort_surface;
 };
 

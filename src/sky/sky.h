@@ -14,6 +14,7 @@
 #include "gpu/pass.h"
 #include "scatter/medium.h"
 #include "sky/body_light.h"
+#include "sky/sea.h"
 #include <terrella/renderer.h>
 
 struct sky_desc {
@@ -22,6 +23,7 @@ struct sky_desc {
     uint32_t wavelengths;              // to solve for, by models that solve
     uint32_t orders;                   // of scattering, by models that know several; 0: all
     const trl_rayleigh_desc *rayleigh; // needed during create only, checked
+    const struct sky_sea *sea;         // NULL: none; must outlive the sky
     size_t body_count;                 // CAMERA_MAX_BODIES at most
     const struct body_desc *bodies; // needed during create only, but for the spectra in it, which
                                     // must outlive the sky

@@ -9,6 +9,7 @@
 #include "sky/moonlight.h"
 #include "sky/pixels.h"
 #include "sky/spectral_maps.h"
+#include "sky/spectral_sea.h"
 #include "spectrum/cie.h"
 
 #include <math.h>
@@ -30,6 +31,7 @@ struct spectral {
     struct sky_eclipse eclipse;
     struct sky_march march;
     struct moonlight moonlight;
+    struct spectral_sea sea;
     struct atmosphere_desc desc;
     struct resolver *resolver; // of a medium that was changed to, or NULL
 };
@@ -65,7 +67,7 @@ static trl_result make_program(const struct spectral *sky, struct shades shades,
 {
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", sky->maps.atmosphere->peaked.count);
-    const char *defines[4] = {peaked};
+    const char *defines[5] = {peaked};
     size_t count = 1;
     if (variant->define) {
         defines[count++] = variant->define;
@@ -75,6 +77,10 @@ static trl_result make_program(const struct spectral *sky, struct shades shades,
     }
     if (shades.has_eclipse) {
         defines[count++] = "ECLIPSE";
+    }
+    if (variant->program == &sky->programs[shades.has_march][shades.has_eclipse].ground_surface &&
+        sky->pixels.has_sea) {
+        defines[count++] = "SEA";
     }
     const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
                                           .fragment = variant->fragment,
@@ -118,6 +124,7 @@ static trl_result init(const struct sky_desc *desc, struct spectral *sky)
     if (result == TRL_OK) {
         sky_march_init(&sky->pixels, &sky->march);
         moonlight_init(desc, &sky->moonlight);
+        spectral_sea_init(desc, &sky->sea);
         result = make_programs(sky, (struct shades){0});
     }
     return result;
@@ -127,6 +134,7 @@ static void spectral_destroy(void **self)
 {
     struct spectral *sky = *self;
     resolver_destroy(&sky->resolver);
+    spectral_sea_finish(&sky->sea);
     moonlight_finish(&sky->moonlight);
     sky_march_finish(&sky->march);
     sky_eclipse_finish(&sky->eclipse);
@@ -176,6 +184,7 @@ static trl_result adopt_solved(struct spectral *sky)
     }
     const bool has_programs = maps.atmosphere->peaked.count == sky->maps.atmosphere->peaked.count;
     moonlight_drop(&sky->moonlight);
+    spectral_sea_drop(&sky->sea);
     spectral_maps_finish(&sky->maps);
     sky->maps = maps;
     sky->pixels.top_radius_m = maps.atmosphere->optics->top_radius_m;
@@ -249,6 +258,10 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
     }
     if (result == TRL_OK) {
         result = spectral_maps_update(&sky->maps, &eye);
+    }
+    if (result == TRL_OK) {
+        result =
+            spectral_sea_prepare(&sky->sea, &sky->maps, view, find_shades(sky, view).has_eclipse);
     }
     return result == TRL_OK ? moonlight_prepare(&sky->moonlight, &sky->maps, view) : result;
 }
@@ -324,6 +337,11 @@ static trl_result spectral_draw(void *self, const struct sky_view *view)
     }
     if (result == TRL_OK) {
         result = draw_kind(sky, ground, SKY_KIND_GROUND, view);
+    }
+    if (result == TRL_OK && spectral_sea_is_seen(&sky->sea, view)) {
+        struct gpu_program *sea = &sky->sea.programs[shades.has_eclipse];
+        spectral_sea_set(&sky->sea, sea, !view->moon.is_main);
+        result = draw_kind(sky, sea, SKY_KIND_SEA, view);
     }
     return result == TRL_OK ? moonlight_draw(&sky->moonlight, &sky->pixels, view) : result;
 }

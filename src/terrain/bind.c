@@ -54,6 +54,9 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
     if (surface->stream) {
         add_define(out, "HAS_PAGES");
     }
+    if (surface->depth.is_told) {
+        add_define(out, "HAS_DEPTH");
+    }
     if (noise_is_there(&surface->noise)) {
         add_define(out, surface->is_invented ? "HAS_GROUND" : "HAS_NOISE"); // the last
     }

@@ -3,6 +3,7 @@
 #include "terrain/compose.h"
 
 #include "gpu/pass.h"
+#include "shared/sea.glsl"
 
 #include <math.h>
 
@@ -83,6 +84,11 @@ trl_result terrain_compose_draw(struct terrain_compose *compose,
     gpu_program_set_mat3(program, "u_local_from_planet", local_from_planet);
     gpu_program_set_vec4(program, "u_view", view);
     gpu_program_set_vec3(program, "u_default_albedo", surface->default_albedo);
+    if (surface->depth.is_told) {
+        const double depth_m = surface->depth.everywhere_m;
+        gpu_program_set_float(program, "u_sea_depth",
+                              depth_m < 0 ? -1 : (float)sea_depth_code(depth_m));
+    }
     gpu_program_set_float(program, "u_region", (float)log2(fmax(in->region_m, 1e-3)));
     const struct gpu_pass pass = {.target = target};
     gpu_pass_begin(compose->gpu, &pass);

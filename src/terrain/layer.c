@@ -421,7 +421,7 @@ static trl_result upload_bytes(struct gpu *gpu, enum gpu_format format, const ui
                                struct terrain_layer *layer)
 {
     struct gpu_texture_desc desc = describe_texture(&layer->frame);
-    desc.label = format == GPU_FORMAT_R8 ? "mask" : "picture";
+    desc.label = format != GPU_FORMAT_RGBA8 ? "mask" : "picture";
     desc.format = format;
     const struct texels texels = {.bytes = bytes,
                                   .width = layer->frame.width,
@@ -478,6 +478,24 @@ trl_result layer_load_mask(struct gpu *gpu, const struct raster *raster,
     if (result == TRL_OK && gpu) {
         result = upload_bytes(gpu, GPU_FORMAT_R8, *bytes, layer);
     }
+    return result;
+}
+
+trl_result layer_upload_mask(struct gpu *gpu, const uint8_t *bytes, const uint8_t *others,
+                             struct terrain_layer *layer)
+{
+    const size_t count = (size_t)layer->frame.width * layer->frame.height;
+    uint8_t *pairs = mem_alloc(layer->ctx, count, 2);
+    if (!pairs) {
+        return TRL_ERROR_MEMORY;
+    }
+#pragma omp parallel for if (count > 1000000)
+    for (size_t i = 0; i < count; i++) {
+        pairs[2 * i] = bytes[i];
+        pairs[2 * i + 1] = others[i];
+    }
+    const trl_result result = upload_bytes(gpu, GPU_FORMAT_RG8, pairs, layer);
+    mem_free(layer->ctx, pairs);
     return result;
 }
 

@@ -112,6 +112,10 @@ TRL_MUST_USE trl_result layer_load_normals(struct gpu *gpu, const struct raster 
 TRL_MUST_USE trl_result layer_load_mask(struct gpu *gpu, const struct raster *raster,
                                         struct terrain_layer *layer, uint8_t **bytes);
 
+// Texture of a mask's bytes in its first channel and others in its second.
+TRL_MUST_USE trl_result layer_upload_mask(struct gpu *gpu, const uint8_t *bytes,
+                                          const uint8_t *others, struct terrain_layer *layer);
+
 void layer_finish(struct terrain_layer *layer);
 
 #endif // TERRAIN_LAYER_H

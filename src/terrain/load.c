@@ -28,6 +28,7 @@ struct surface_desc surface_desc_default(void)
     return (struct surface_desc){.radius_m = 1,
                                  .default_albedo = {0.3f, 0.3f, 0.3f},
                                  .exaggeration = 1,
+                                 .depth.everywhere_m = -1,
                                  .max_bytes = 3e9,
                                  .waits = true};
 }
@@ -168,6 +169,7 @@ static trl_result load_elevation(struct loader *loader, const struct surface_lay
         result = layer_read_heights(raster, &below, layer);
     }
     if (result == TRL_OK) {
+        load_note_depths(loader->surface, layer);
         result = load_raise_sea(loader, layer);
     }
     if (result == TRL_OK) {
@@ -204,8 +206,7 @@ static trl_result read_layer(struct loader *loader, const struct surface_layer_d
     case SURFACE_ELEVATION:
         return load_elevation(loader, desc, raster, layer);
     case SURFACE_WATER:
-        return layer_load_mask(s->gpu, raster, layer,
-                               &loader->surface->masks[s->counts[SURFACE_WATER]]);
+        return load_mask(loader->surface, raster, layer);
     case SURFACE_NORMAL:
         return layer_load_normals(s->gpu, raster, layer);
     default:
@@ -221,6 +222,13 @@ static void listen(void *user, trl_log_level level, trl_log_item item, const cha
     } else {
         trl_log(loader->surface->ctx, level, item, "%s", message);
     }
+}
+
+static void free_mask(struct surface *s, size_t index)
+{
+    mem_free(s->ctx, s->masks[index]);
+    mem_free(s->ctx, s->depths[index]);
+    s->masks[index] = s->depths[index] = NULL;
 }
 
 static trl_result load_layer(struct loader *loader, const struct surface_layer_desc *desc,
@@ -252,8 +260,7 @@ static trl_result load_layer(struct loader *loader, const struct surface_layer_d
         layer_finish(layer);
     }
     if (result != TRL_OK && desc->kind == SURFACE_WATER) {
-        mem_free(s->ctx, s->masks[s->counts[SURFACE_WATER]]);
-        s->masks[s->counts[SURFACE_WATER]] = NULL;
+        free_mask(s, s->counts[SURFACE_WATER]);
     }
     return result;
 }
@@ -336,14 +343,14 @@ static trl_result load_layers(struct loader *loader)
 static void free_masks(struct surface *s)
 {
     for (size_t i = 0; i < SURFACE_MAX_LAYERS && s->ctx; i++) {
-        mem_free(s->ctx, s->masks[i]);
-        s->masks[i] = NULL;
+        free_mask(s, i);
     }
 }
 
 static trl_result fill_surface(const struct surface_desc *desc, struct surface *out)
 {
     out->radius_m = desc->radius_m;
+    out->depth = desc->depth;
     for (int c = 0; c < 3; c++) {
         out->default_albedo[c] = desc->default_albedo[c];
     }
@@ -356,6 +363,9 @@ static trl_result fill_surface(const struct surface_desc *desc, struct surface *
     }
     if (result == TRL_OK) {
         result = load_layers(&loader);
+    }
+    if (result == TRL_OK) {
+        result = load_upload_depths(out);
     }
     close_rasters(&loader);
     if (result == TRL_OK) {

@@ -42,6 +42,15 @@ TRL_MUST_USE trl_result load_set_scale(const struct loader *loader,
                                        const struct surface_layer_desc *desc,
                                        struct terrain_layer *layer);
 
+// Reads a mask that is held whole into layer and surface; with depths it is uploaded later.
+// As layer_load_mask.
+TRL_MUST_USE trl_result load_mask(struct surface *surface, const struct raster *raster,
+                                  struct terrain_layer *layer);
+// Keeps how deep water is below the layer's heights, for the masks; before they are raised.
+void load_note_depths(struct surface *surface, const struct terrain_layer *layer);
+// Uploads masks with depths. TRL_ERROR_GPU, TRL_ERROR_MEMORY.
+TRL_MUST_USE trl_result load_upload_depths(struct surface *surface);
+
 // Raises the layer's heights to sea level where water is. TRL_ERROR_MEMORY.
 TRL_MUST_USE trl_result load_raise_sea(const struct loader *loader, struct terrain_layer *layer);
 

@@ -45,6 +45,12 @@ struct surface_detail {
     double smallest_m;       // its shortest wavelength, > 0
 };
 
+// Whether the surface tells how deep open water is, by codes of shared/sea.glsl.
+struct surface_depth {
+    bool is_told;
+    double everywhere_m; // below 0: from the heights below the masks that are held whole
+};
+
 struct surface_desc {
     double radius_m; // of the reference sphere
     size_t layer_count;
@@ -56,6 +62,7 @@ struct surface_desc {
     struct noise_desc noise;                 // octaves: 0: none
     struct biomes biomes;                    // colours of invented ground
     struct continents_desc continents;       // height_m > 0: the ground is the noise's own
+    struct surface_depth depth;
     double max_bytes; // of all rasters; what would need more is held in tiles
     bool waits;       // for tiles: every answer and frame is exact
 };
@@ -82,7 +89,9 @@ struct surface {
     bool is_invented;              // the noise's map is the ground below all layers
     struct surface_bounds *bounds; // owned; north row first, from 180 W
     double min_altitude_m, max_altitude_m;
-    struct stream *stream;              // owned; NULL: all layers are held whole
+    struct stream *stream; // owned; NULL: all layers are held whole
+    struct surface_depth depth;
+    uint8_t *depths[SURFACE_MAX_LAYERS]; // owned, while loading; codes for texels of the masks
     uint8_t *masks[SURFACE_MAX_LAYERS]; // owned; bytes of the water layers, where there is a stream
 };
 
@@ -167,7 +176,7 @@ struct surface_selection surface_select(const struct surface *surface,
 size_t surface_count_seen(const struct surface *surface, enum surface_kind kind);
 
 // "#define"s of the numbers of layers, for programs that include terrain/layers.glsl.
-enum { SURFACE_DEFINE_COUNT = 11, SURFACE_DEFINE_LENGTH = 48 };
+enum { SURFACE_DEFINE_COUNT = 12, SURFACE_DEFINE_LENGTH = 48 };
 struct surface_defines {
     char text[SURFACE_DEFINE_COUNT][SURFACE_DEFINE_LENGTH];
     const char *list[SURFACE_DEFINE_COUNT + 2]; // into text; two free for the caller

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Radiance of pixels with ground: lit by star and sky, behind air. With SURFACE the ground comes
 // from the surface buffers, else it is the bare reference sphere. With MOON a body stands for the
-// star, and its light is added to what is there.
+// star, and its light is added to what is there. With SEA open water is drawn by sea.frag, and is
+// black here.
 // validate: PEAKED_COUNT 1
 // validate: PEAKED_COUNT 0
 // validate: PEAKED_COUNT 3; SURFACE
@@ -11,6 +12,7 @@
 // validate: PEAKED_COUNT 1; ECLIPSE
 // validate: PEAKED_COUNT 1; MOON
 // validate: PEAKED_COUNT 1; SURFACE; MOON
+// validate: PEAKED_COUNT 1; SURFACE; SEA
 
 #include "sky/ground.glsl"
 #include "sky/spectral/air.glsl"
@@ -116,6 +118,9 @@ Light light_ground(Ray ray, Ground ground, Air air)
     light.bounced = vec4(0.0);
 #endif
     vec4 irradiance = star * (incidence * ground.star_visible) + sky * open + around * (1.0 - open);
+#ifdef SEA
+    own *= 1.0 - ground.water;
+#endif
     light.ground = own * irradiance * (1.0 / SHARED_PI) + ground_emitted(ground);
     return light;
 }

@@ -7,6 +7,7 @@
 #include "shared/phase.glsl"
 #include "shared/profile.glsl"
 #include "shared/projection.glsl"
+#include "shared/sea.glsl"
 #include "shared/sky_map.glsl"
 
 uniform vec4 u_angle; // cosine, g
@@ -18,6 +19,7 @@ uniform float u_wants_outside;
 uniform float u_wants_shadow;
 uniform float u_wants_eclipse;
 uniform float u_wants_blend;
+uniform float u_wants_sea;
 uniform float u_wants_projection; // 1 the offset, 2 the map
 uniform vec4 u_place;             // latitude of the anchor; offsets in longitude and latitude; pole
 layout(location = 0) out vec4 o_color;
@@ -51,11 +53,15 @@ void main()
         vec4(map.x, map.y, projection_stereographic_scale(anchor_sine, offset.up, u_place.w), 0.0);
     projections =
         u_wants_projection < 1.5 ? vec4(offset.outward, offset.east, offset.up, 0.0) : projections;
-    o_color = u_wants_projection > 0.5 ? projections
-              : u_wants_blend > 0.5    ? blends
-              : u_wants_eclipse > 0.5  ? eclipses
-              : u_wants_outside > 0.5  ? outside
-              : u_wants_shadow > 0.5   ? shadows
-              : u_wants_map > 0.5      ? maps
-                                       : (u_wants_profile > 0.5 ? profiles : phases);
+    vec4 seas = vec4(fresnel_reflectance(u_angle.x, u_angle.y), sea_hidden(u_angle.x, u_shell.x),
+                     sea_glint(u_angle.x, 0.8, u_shell.y, u_shell.z, u_shell.x, 1.34),
+                     sea_code_depth(sea_depth_code(u_shell.w)));
+    o_color = u_wants_sea > 0.5          ? seas
+              : u_wants_projection > 0.5 ? projections
+              : u_wants_blend > 0.5      ? blends
+              : u_wants_eclipse > 0.5    ? eclipses
+              : u_wants_outside > 0.5    ? outside
+              : u_wants_shadow > 0.5     ? shadows
+              : u_wants_map > 0.5        ? maps
+                                         : (u_wants_profile > 0.5 ? profiles : phases);
 }

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef OCEAN_SEA_H
+#define OCEAN_SEA_H
+// The sea as what lights it sees: how rough it is, how much of it is white, what comes back out of
+// the water. docs/physics.md, *The sea*.
+
+#include "ocean/ocean.h"
+
+// Mean square slope of all waves, along and across together: Cox and Munk 1954 for a clean surface.
+double sea_mean_square_slope(const struct ocean_waves *waves);
+
+// Part of the surface that is white: Monahan and O'Muircheartaigh 1980, J. Phys. Oceanogr. 10.
+double sea_whitecap_share(const struct ocean_waves *waves);
+
+// Albedo of what is white, streaks and patches that dissolve included: Koepke 1984, Appl. Opt. 23.
+#define SEA_WHITECAP_ALBEDO 0.22
+
+double sea_refractive_index(const struct ocean_water *water, double nm);
+
+// Of the water with all that is in it, per m.
+struct sea_optics {
+    double absorption, scattering, backscattering;
+};
+struct sea_optics sea_optics_at(const struct ocean_water *water, double nm);
+
+// Reflectance of a smooth boundary for light that comes from everywhere alike, from above.
+double sea_diffuse_reflectance(double index);
+
+// What comes out of the water, as albedo: pi times radiance that leaves upward per irradiance
+// below the surface, without the loss of the radiance at the boundary (1 - Fresnel of the view).
+double sea_water_albedo(const struct ocean_desc *ocean, double depth_m, double nm);
+
+#endif // OCEAN_SEA_H

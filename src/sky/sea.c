@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "sky/sea.h"
+
+#include "shared/fresnel.glsl"
+#include "shared/phase.glsl"
+#include "shared/sky_map.glsl"
+#include "spectrum/cie.h"
+
+#include <math.h>
+
+// Facets of a rough surface, equally many for each part of the slopes' distribution.
+enum { RINGS = 10, SPOKES = 16, FACETS = RINGS * SPOKES };
+
+// A facet as seen in a direction: its share of what is seen, and where it mirrors.
+struct facet {
+    double weight, reflectance;
+    double mu;     // of the mirrored ray
+    double turn_x; // its horizontal direction, from the one away from the eye: cosine
+    double turn_y; // sine
+};
+
+// The facets that a view sees, in the frame whose x axis points away from the eye. Each is seen as
+// large as it is turned to the eye; those that face away are not.
+static void find_facets(const struct sky_sea *sea, double view_mu, struct facet facets[FACETS])
+{
+    const double sine = sqrt(fmax(1 - view_mu * view_mu, 0));
+    double sum = 0;
+    for (int i = 0; i < FACETS; i++) {
+        // Slopes with the density exp(-s^2 / mss): a ring holds the same share of them as others.
+        const double share = (i / SPOKES + 0.5) / RINGS;
+        const double slope = sqrt(-sea->mean_square_slope * log(1 - share));
+        const double angle = 2 * M_PI * (i % SPOKES + 0.5) / SPOKES;
+        const double x = -slope * cos(angle), y = -slope * sin(angle);
+        const double seen = -sine * x + view_mu; // toward the eye: (-sine, 0, view_mu)
+        const double length2 = x * x + y * y + 1;
+        const double twice = 2 * seen / length2;
+        struct facet *f = &facets[i];
+        f->weight = fmax(seen, 0);
+        f->reflectance = fresnel_reflectance(fmin(seen / sqrt(length2), 1), sea->index);
+        // Light that seems to come from below the horizon was mirrored there before, by what is
+        // taken for the mean surface; the rest of it went into the water.
+        f->mu = fabs(twice - view_mu);
+        f->reflectance *= twice < view_mu ? fresnel_reflectance(f->mu, sea->index) : 1;
+        const double along = twice * x + sine, across = twice * y;
+        const double level = fmax(sqrt(along * along + across * across), 1e-12);
+        f->turn_x = along / level;
+        f->turn_y = across / level;
+        sum += f->weight;
+    }
+    for (int i = 0; i < FACETS; i++) {
+        facets[i].weight /= sum;
+    }
+}
+
+double sea_surface_reflectance(const struct sky_sea *sea, double mu)
+{
+    struct facet facets[FACETS];
+    find_facets(sea, mu, facets);
+    double sum = 0;
+    for (int i = 0; i < FACETS; i++) {
+        sum += facets[i].weight * facets[i].reflectance;
+    }
+    return sum;
+}
+
+// The sky as seen from the sea: logarithms of a slice of the 4D table, one array a channel.
+struct seen_sky {
+    const struct atmosphere *atmosphere;
+    float *slices[1 + TABLE_MAX_PEAKED];
+};
+
+struct cell {
+    int below;
+    float part;
+};
+
+static struct cell cell_of(double x, int count)
+{
+    const double at = fmin(fmax(x, 0), 1) * (count - 1);
+    const int below = at < count - 2 ? (int)at : count - 2;
+    return (struct cell){below, (float)(at - below)};
+}
+
+// The inverse of sky_map_sun.
+static double table_sun_mu(const struct table *table, int sun)
+{
+    const double x = (double)sun / (table->size.suns - 1);
+    return fmin(table->sun_centre +
+                    table->sun_width *
+                        sinh(table->sun_first + x * (table->sun_last - table->sun_first)),
+                1);
+}
+
+// XYZ of one channel, without its phase function.
+static void look_up(const float *slice, const struct table_size *n, const int sun,
+                    const struct cell cells[2], float xyz[3])
+{
+    const size_t row = (size_t)n->azimuths * TEXEL_FLOATS;
+    const float *low = slice + ((size_t)cells[0].below * (size_t)n->suns + (size_t)sun) * row +
+                       (size_t)cells[1].below * TEXEL_FLOATS;
+    const float *high = low + (size_t)n->suns * row;
+    for (int k = 0; k < 3; k++) {
+        const float a = low[k] + (low[TEXEL_FLOATS + k] - low[k]) * cells[1].part;
+        const float b = high[k] + (high[TEXEL_FLOATS + k] - high[k]) * cells[1].part;
+        xyz[k] = expf(a + (b - a) * cells[0].part);
+    }
+}
+
+// Adds the radiance of the sky in a direction, by a weight.
+static void add_sky(const struct seen_sky *sky, const double direction[3], int sun, double sum[3])
+{
+    const struct atmosphere *a = sky->atmosphere;
+    const double ground = a->optics->ground_radius_m;
+    const double height = a->optics->top_radius_m - ground;
+    const double mu = direction[0], nu = direction[1], weight = direction[2];
+    const double along = ground * mu;
+    const double way = height * (2 * ground + height) /
+                       (sqrt(along * along + height * (2 * ground + height)) + along);
+    const double longest = sqrt(height * (2 * ground + height));
+    const double sun_mu = table_sun_mu(&a->table, sun);
+    const double sines = sqrt(fmax((1 - mu * mu) * (1 - sun_mu * sun_mu), 1e-12));
+    const double azimuth = sky_map_azimuth(fmin(fmax((nu - mu * sun_mu) / sines, -1), 1));
+    const struct cell cells[2] = {cell_of(sky_map_view(way, height, longest), a->table.size.views),
+                                  cell_of(azimuth, a->table.size.azimuths)};
+    for (int c = 0; c < a->table.channels; c++) {
+        const double phase =
+            c == 0 ? phase_rayleigh(nu)
+                   : phase_value(&a->medium.constituents[a->peaked.constituent[c - 1]].phase, nu);
+        float xyz[3];
+        look_up(sky->slices[c], &a->table.size, sun, cells, xyz);
+        for (int k = 0; k < 3; k++) {
+            sum[k] += weight * phase * (double)xyz[k];
+        }
+    }
+}
+
+// XYZ of light as bands per unit irradiance of the star that show the same.
+static void store_bands(const struct bands *bands, const double xyz[3], float *texel)
+{
+    double relative[3]; // linear sRGB relative to that of a white wall in the star's light
+    for (int k = 0; k < 3; k++) {
+        double star = 0;
+        for (int b = 0; b < BAND_COUNT; b++) {
+            star += (double)bands->rgb_from_bands[k][b];
+        }
+        const double rgb = cie_rgb_from_xyz[k][0] * xyz[0] + cie_rgb_from_xyz[k][1] * xyz[1] +
+                           cie_rgb_from_xyz[k][2] * xyz[2];
+        relative[k] = star > 0 ? rgb / star : 0;
+    }
+    for (int b = 0; b < BAND_COUNT; b++) {
+        double value = 0;
+        for (int k = 0; k < 3; k++) {
+            value += (double)bands->bands_from_rgb[b][k] * relative[k];
+        }
+        texel[b] = logf(fmaxf((float)value, 1e-30f));
+    }
+}
+
+// One view: all suns and azimuths.
+static void fill_view(const struct seen_sky *sky, const struct sky_sea *sea, int view,
+                      float *texels)
+{
+    const struct atmosphere *a = sky->atmosphere;
+    struct facet facets[FACETS];
+    const double root = fmax((double)view / (SEA_MIRROR_VIEWS - 1), 0.02);
+    find_facets(sea, root * root, facets);
+    double reflectance = 0;
+    for (int i = 0; i < FACETS; i++) {
+        reflectance += facets[i].weight * facets[i].reflectance;
+    }
+    const int suns = a->table.size.suns;
+    for (int sun = 0; sun < suns; sun++) {
+        const double sun_mu = table_sun_mu(&a->table, sun);
+        const double sun_sine = sqrt(fmax(1 - sun_mu * sun_mu, 0));
+        for (int az = 0; az < SEA_MIRROR_AZIMUTHS; az++) {
+            const double half = asin((double)az / (SEA_MIRROR_AZIMUTHS - 1));
+            const double cosine = cos(2 * half), sine = sin(2 * half);
+            double xyz[3] = {0, 0, 0};
+            for (int i = 0; i < FACETS; i++) {
+                const struct facet *f = &facets[i];
+                const double level = sqrt(fmax(1 - f->mu * f->mu, 0));
+                const double nu =
+                    f->mu * sun_mu + level * sun_sine * (f->turn_x * cosine + f->turn_y * sine);
+                const double direction[3] = {f->mu, nu, f->weight * f->reflectance / reflectance};
+                if (f->weight > 0) {
+                    add_sky(sky, direction, sun, xyz);
+                }
+            }
+            store_bands(&a->bands, xyz,
+                        texels + ((size_t)sun * SEA_MIRROR_AZIMUTHS + (size_t)az) * BAND_COUNT);
+        }
+    }
+}
+
+trl_result sea_mirror_make(const struct atmosphere *atmosphere, const struct sky_sea *sea,
+                           float *texels)
+{
+    const struct table *table = &atmosphere->table;
+    const size_t count = (size_t)table->size.views * (size_t)table->size.suns *
+                         (size_t)table->size.azimuths * TEXEL_FLOATS;
+    struct seen_sky sky = {.atmosphere = atmosphere};
+    float *slices = mem_alloc(atmosphere->ctx, count * (size_t)table->channels, sizeof *slices);
+    if (!slices) {
+        return TRL_ERROR_MEMORY;
+    }
+    for (int c = 0; c < table->channels; c++) {
+        sky.slices[c] = slices + (size_t)c * count;
+        table_slice(table, atmosphere->optics, c, atmosphere->optics->ground_radius_m,
+                    sky.slices[c]);
+        for (size_t k = 0; k < count; k++) {
+            sky.slices[c][k] = logf(fmaxf(sky.slices[c][k], 1e-20f));
+        }
+    }
+    const size_t view_floats = (size_t)table->size.suns * SEA_MIRROR_AZIMUTHS * BAND_COUNT;
+#pragma omp parallel for schedule(dynamic, 1)
+    for (int view = 0; view < SEA_MIRROR_VIEWS; view++) {
+        fill_view(&sky, sea, view, texels + (size_t)view * view_floats);
+    }
+    mem_free(atmosphere->ctx, slices);
+    return TRL_OK;
+}

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef SKY_SEA_H
+#define SKY_SEA_H
+// The sea as models of the sky light it, and the light of the air that it mirrors.
+
+#include "scatter/atmosphere.h"
+
+// Depths of the table: codes of shared/sea.glsl, from the deep to the shore.
+enum { SKY_SEA_DEPTHS = 64 };
+
+struct sky_sea {
+    bool is_there;
+    double mean_square_slope; // of what the surface buffers do not show as normals
+    double index;             // refractive, at the middle of what is seen
+    double white_share;       // of the surface, with that albedo
+    double white_albedo;
+    // Reflectance of the water below the surface, linear sRGB: pi times the radiance that leaves,
+    // per irradiance below the surface, without the Fresnel loss of the radiance.
+    float water[SKY_SEA_DEPTHS][3];
+};
+
+// Reflectance of the surface from above for a ray with that cosine, over the facets that it sees.
+double sea_surface_reflectance(const struct sky_sea *sea, double mu);
+
+// Mirrored light: [view][sun][azimuth][BAND_COUNT], logarithms of bands per unit irradiance of the
+// star, means over the facets that a view sees weighed by their reflectance. Views are uniform in
+// the root of their cosine, suns as in the 4D table, azimuths of the mirrored ray from the star's in
+// the sine of their half: dense where the aureole is.
+enum { SEA_MIRROR_VIEWS = 24, SEA_MIRROR_AZIMUTHS = 16 };
+// TRL_ERROR_MEMORY.
+TRL_MUST_USE trl_result sea_mirror_make(const struct atmosphere *atmosphere,
+                                        const struct sky_sea *sea, float *texels);
+
+#endif // SKY_SEA_H

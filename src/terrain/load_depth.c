@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// The depth of open water beside its mask: heights below sea level are lost when they are raised.
+#include "terrain/load.h"
+
+#include "shared/blend.glsl"
+#include "shared/sea.glsl"
+
+#include <math.h>
+
+trl_result load_mask(struct surface *surface, const struct raster *raster,
+                     struct terrain_layer *layer)
+{
+    const size_t index = surface->counts[SURFACE_WATER];
+    struct gpu *gpu = surface->depth.is_told ? NULL : surface->gpu;
+    trl_result result = layer_load_mask(gpu, raster, layer, &surface->masks[index]);
+    if (result == TRL_OK && surface->depth.is_told && surface->gpu) {
+        // All 0: as deep as can be.
+        surface->depths[index] =
+            mem_alloc(surface->ctx, (size_t)layer->frame.width * layer->frame.height, 1);
+        result = surface->depths[index] ? TRL_OK : TRL_ERROR_MEMORY;
+    }
+    return result;
+}
+
+// Water that does not lie below the sphere is no sea, and how deep it is nobody knows.
+static uint8_t code_of(double altitude_m)
+{
+    return altitude_m >= 0 ? 0 : (uint8_t)lrint(255 * sea_depth_code(-altitude_m));
+}
+
+// Whether a row of a mask along a circle of latitude can meet the layer at all.
+static bool is_met(const struct layer_frame *mask, const struct layer_frame *f, uint32_t y)
+{
+    const double latitude = layer_geo_of(mask, 0, y).latitude;
+    return mask->pole != 0 ||
+           (!layer_is_beyond(f, latitude) && fabs(latitude - asin(f->direction.z)) <= f->reach_rad);
+}
+
+// The row of the layer whose texels are those of the mask's row, or none.
+static int64_t find_same_row(const struct layer_frame *mask, const struct layer_frame *f,
+                             uint32_t y)
+{
+    if (f->pole != 0 || mask->pole != 0 || !f->is_whole_circle || f->width != mask->width ||
+        fabs(f->centre_x - mask->centre_x) > 1e-9) {
+        return -1;
+    }
+    const struct layer_geo at = layer_geo_of(mask, 0, y);
+    const struct layer_place p = layer_locate(f, at.latitude, at.longitude);
+    return p.weight > 0 && fabs(p.y - rint(p.y)) < 0.01 ? lrint(p.y) : -1;
+}
+
+// Of a mask: its frame, and texels from the row's first on.
+struct mask_row {
+    const struct layer_frame *frame;
+    uint32_t y;
+    const uint8_t *water;
+    uint8_t *codes;
+};
+
+// Codes are interpolated, so land beside water takes that of the water: the step to the texel's
+// own or its neighbour's, in columns and rows. False: there is none.
+struct step {
+    int x, y;
+};
+static bool find_water(const struct mask_row *row, uint32_t x, struct step *step)
+{
+    const size_t width = row->frame->width;
+    const uint8_t *at = row->water + x;
+    const bool is_west = x > 0 && at[-1], is_east = x + 1 < width && at[1];
+    const bool is_north = row->y > 0 && *(at - width);
+    const bool is_south = row->y + 1 < row->frame->height && at[width];
+    *step = (struct step){0, 0};
+    if (!at[0]) {
+        step->x = is_west ? -1 : is_east;
+        step->y = step->x != 0 ? 0 : is_north ? -1 : is_south;
+    }
+    return at[0] || step->x != 0 || step->y != 0;
+}
+
+// Texels of the mask that have water take the height where they are.
+static void note_row(const struct mask_row *row, const struct terrain_layer *layer)
+{
+    const struct layer_frame *mask = row->frame;
+    const uint32_t y = row->y;
+    const int64_t same = find_same_row(mask, &layer->frame, y);
+    for (uint32_t x = 0; x < mask->width; x++) {
+        struct step step;
+        if (!find_water(row, x, &step)) {
+            continue;
+        }
+        if (same >= 0) {
+            row->codes[x] = code_of(layer_texel(layer, (int64_t)x + step.x, same + step.y));
+            continue;
+        }
+        const struct layer_geo at = layer_geo_of(mask, (int64_t)x + step.x, (int64_t)y + step.y);
+        const struct layer_place p = layer_locate(&layer->frame, at.latitude, at.longitude);
+        if (p.weight > 0) {
+            row->codes[x] = code_of(layer_sample_held_linear(layer, p.x, p.y));
+        }
+    }
+}
+
+void load_note_depths(struct surface *surface, const struct terrain_layer *layer)
+{
+    if (layer->mode == BLEND_ADD || layer->mode == BLEND_MULTIPLY) {
+        return;
+    }
+    for (size_t i = 0; i < surface->counts[SURFACE_WATER]; i++) {
+        const struct layer_frame *mask = &surface->layers[SURFACE_WATER][i].frame;
+        uint8_t *depths = surface->depths[i];
+#pragma omp parallel for schedule(dynamic, 16) if (depths)
+        for (uint32_t y = 0; y < (depths ? mask->height : 0); y++) {
+            if (is_met(mask, &layer->frame, y)) {
+                const size_t first = layer_texel_index(mask, 0, y);
+                const struct mask_row row = {mask, y, surface->masks[i] + first, depths + first};
+                note_row(&row, layer);
+            }
+        }
+    }
+}
+
+trl_result load_upload_depths(struct surface *surface)
+{
+    trl_result result = TRL_OK;
+    for (size_t i = 0; i < surface->counts[SURFACE_WATER] && result == TRL_OK; i++) {
+        if (surface->depths[i]) {
+            result = layer_upload_mask(surface->gpu, surface->masks[i], surface->depths[i],
+                                       &surface->layers[SURFACE_WATER][i]);
+            mem_free(surface->ctx, surface->depths[i]);
+            surface->depths[i] = NULL;
+        }
+    }
+    return result;
+}

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// The sea's surface and water against closed forms and integrals of other kinds.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+
+#include "ocean/sea.h"
+#include "shared/sea.glsl"
+#include "sky/sea.h"
+
+static void assert_close(double got, double wanted, double tolerance)
+{
+    if (!(fabs(got - wanted) <= tolerance)) {
+        fail_msg("%.8g, not %.8g within %g", got, wanted, tolerance);
+    }
+}
+
+// Walsh 1926, in Duntley 1942, J. Opt. Soc. Am. 32, Eq. 11.
+static double walsh(double n)
+{
+    const double n2 = n * n, n4 = n2 * n2;
+    return 0.5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) * (n + 1)) +
+           n2 * (n2 - 1) * (n2 - 1) / pow(n2 + 1, 3) * log((n - 1) / (n + 1)) -
+           2 * n2 * n * (n2 + 2 * n - 1) / ((n2 + 1) * (n4 - 1)) +
+           8 * n4 * (n4 + 1) / ((n2 + 1) * (n4 - 1) * (n4 - 1)) * log(n);
+}
+
+static void a_smooth_surface_reflects_by_fresnel(void **state)
+{
+    (void)state;
+    assert_close(fresnel_reflectance(1, 1.34), pow(0.34 / 2.34, 2), 1e-12);
+    assert_close(fresnel_reflectance(0, 1.34), 1, 1e-7);
+    // By Brewster's angle only what is polarised across comes back: cos^2(2 angle) of half.
+    const double brewster = atan(1.34);
+    assert_close(fresnel_reflectance(cos(brewster), 1.34), 0.5 * pow(cos(2 * brewster), 2), 1e-12);
+    // From below, total beyond 48.3 degrees; and the same way back before.
+    assert_close(fresnel_reflectance(0.6, 1 / 1.34), 1, 0);
+    const double refracted = sqrt(1 - (1 - 0.5 * 0.5) / (1.34 * 1.34));
+    assert_close(fresnel_reflectance(refracted, 1 / 1.34), fresnel_reflectance(0.5, 1.34), 1e-12);
+    const double indices[] = {1.29, 1.34, 1.5, 2};
+    for (size_t i = 0; i < 4; i++) {
+        assert_close(sea_diffuse_reflectance(indices[i]), walsh(indices[i]), 1e-4);
+    }
+}
+
+// Over slopes, by a rule that shares nothing with the code: polar, Simpson.
+static void slopes_have_their_mean_square(void **state)
+{
+    (void)state;
+    const double mss = 0.04;
+    enum { STEPS = 4000 };
+    double sum = 0, square = 0;
+    for (int i = 0; i <= STEPS; i++) {
+        const double s = 2.0 * i / STEPS;
+        const double weight = (i == 0 || i == STEPS ? 1 : i % 2 ? 4 : 2) * 2.0 / STEPS / 3;
+        const double p = sea_slope_density(1 / sqrt(1 + s * s), mss) * 2 * M_PI * s * weight;
+        sum += p;
+        square += p * s * s;
+    }
+    assert_close(sum, 1, 1e-6);
+    assert_close(square, mss, 1e-6);
+}
+
+// Reflectance of the glint for a view, over all suns: what a furnace of light would see.
+static double sum_glint(double view_mu, double mss, double index)
+{
+    enum { MUS = 1200, AZIMUTHS = 720 };
+    double sum = 0;
+    for (int i = 0; i < MUS; i++) {
+        const double mu = (i + 0.5) / MUS, sine = sqrt(1 - mu * mu);
+        const double view_sine = sqrt(1 - view_mu * view_mu);
+        for (int j = 0; j < AZIMUTHS; j++) {
+            const double azimuth = M_PI * (j + 0.5) / AZIMUTHS;
+            const double x = sine * cos(azimuth) + view_sine, y = sine * sin(azimuth);
+            const double z = mu + view_mu, length = sqrt(x * x + y * y + z * z);
+            const double cosine = (view_sine * x + view_mu * z) / length;
+            sum += sea_glint(z / length, cosine, view_mu, mu, mss, index);
+        }
+    }
+    return 2 * M_PI * sum / MUS / AZIMUTHS; // both halves of the azimuths
+}
+
+static void glint_and_mirrored_sky_are_one_surface(void **state)
+{
+    (void)state;
+    const double slopes[] = {0.005, 0.02, 0.04, 0.1};
+    for (size_t k = 0; k < 4; k++) {
+        const struct sky_sea sea = {.mean_square_slope = slopes[k], .index = 1.34};
+        for (double mu = 0.2; mu < 1.01; mu += 0.2) {
+            // What one facet sends and another one catches is lost to the glint, the more the lower
+            // and the rougher; of the mirrored sky only what goes on downward is.
+            const double kept = mu > 0.7 ? 0.94 : mu > 0.5 ? 0.84 : 0.72;
+            const double glint = sum_glint(mu, slopes[k], 1.34);
+            const double mirrored = sea_surface_reflectance(&sea, mu);
+            printf("mss %.3f mu %.1f: glint %.5f, mirrored %.5f\n", slopes[k], mu, glint, mirrored);
+            assert_true(glint <= mirrored * 1.01);
+            assert_true(glint > mirrored * kept);
+        }
+    }
+}
+
+static void nothing_is_reflected_twice_from_a_white_surface(void **state)
+{
+    (void)state;
+    // With an index beyond all others facets reflect everything.
+    assert_close(sum_glint(1, 0.04, 1e6), 1, 0.005);
+    assert_true(sum_glint(0.5, 0.04, 1e6) <= 1 + 0.005);
+    assert_true(sum_glint(0.1, 0.04, 1e6) <= 1 + 0.005);
+}
+
+static void wind_makes_slopes_and_whitecaps(void **state)
+{
+    (void)state;
+    struct ocean_waves waves = {.wind_m_s = 10, .mean_square_slope = -1, .whitecaps = 1};
+    assert_close(sea_mean_square_slope(&waves), 0.0542, 1e-12);
+    assert_close(sea_whitecap_share(&waves), 0.0098, 0.0002); // 1 % at 10 m/s
+    waves.whitecaps = 0;
+    waves.mean_square_slope = 0.01;
+    assert_close(sea_mean_square_slope(&waves), 0.01, 0);
+    assert_close(sea_whitecap_share(&waves), 0, 0);
+}
+
+static void water_has_the_colour_of_its_depth(void **state)
+{
+    (void)state;
+    const struct ocean_desc sea = {.water = {.chlorophyll_mg_m3 = 0.1, .dissolved_per_m_440 = 0.01},
+                                   .bed.albedo = {.constant = 0.3}};
+    // Irradiance reflectance of clear blue sea below the surface: 3 to 6 % in the blue, far less
+    // than a hundredth in the red (Morel and Prieur 1977, Figure 2).
+    const double factor = 1.34 * 1.34;
+    assert_true(factor * sea_water_albedo(&sea, 1e6, 440) > 0.03);
+    assert_true(factor * sea_water_albedo(&sea, 1e6, 440) < 0.07);
+    assert_true(factor * sea_water_albedo(&sea, 1e6, 650) < 0.003);
+    // No water: the bed behind the surface, with the light that goes back and forth.
+    const double inner = 1 - (1 - walsh(1.34)) / factor;
+    assert_close(sea_water_albedo(&sea, 0, 550), 0.3 / (1 - inner * 0.3) / factor, 1e-4);
+    double before = 1;
+    for (double depth = 0; depth < 100; depth += 5) {
+        const double green = sea_water_albedo(&sea, depth, 550);
+        assert_true(green < before);
+        before = green;
+    }
+    // Mud makes it brighter and browner.
+    struct ocean_desc river = sea;
+    river.water.mud_g_m3 = 50;
+    assert_true(sea_water_albedo(&river, 1e6, 650) > sea_water_albedo(&river, 1e6, 440));
+    assert_true(sea_water_albedo(&river, 1e6, 650) > 20 * sea_water_albedo(&sea, 1e6, 650));
+}
+
+static void depths_come_back_from_their_codes(void **state)
+{
+    (void)state;
+    for (double depth = 0; depth < SEA_DEEP_M; depth += 7) {
+        assert_close(sea_code_depth(sea_depth_code(depth)), depth, 1e-9);
+    }
+    assert_close(sea_depth_code(1e5), 0, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_smooth_surface_reflects_by_fresnel),
+        cmocka_unit_test(slopes_have_their_mean_square),
+        cmocka_unit_test(glint_and_mirrored_sky_are_one_surface),
+        cmocka_unit_test(nothing_is_reflected_twice_from_a_white_surface),
+        cmocka_unit_test(wind_makes_slopes_and_whitecaps),
+        cmocka_unit_test(water_has_the_colour_of_its_depth),
+        cmocka_unit_test(depths_come_back_from_their_codes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
