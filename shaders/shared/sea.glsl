@@ -48,8 +48,8 @@ SHARED_FN Number sea_disc_slope(Angle radius)
     return radius * radius / 8.0;
 }
 
-// Depth of water as a code for a byte, 1 at the shore and 0 from SEA_DEEP_M on, where no light comes
-// back from the bed of the clearest water; and back.
+// Depth of water as a code for a byte, 1 at the shore and 0 from SEA_DEEP_M on, where no light
+// comes back from the bed of the clearest water; and back.
 #define SEA_DEEP_M 200.0
 SHARED_FN Number sea_depth_code(Length depth)
 {

@@ -3,7 +3,10 @@
 #include "frame/relief.h"
 
 #include "frame/ground.h"
+#include "frame/sea.h"
 #include "terrain/look.h"
+
+#include <math.h>
 
 static size_t keep_heights(struct surface_layer_desc *layers, size_t count)
 {
@@ -20,6 +23,7 @@ static trl_result init(const trl_context *ctx, const struct trl_scene *scene, bo
                        struct relief *out)
 {
     *out = (struct relief){.lights_cd_m2 = ground_find_lights_cd_m2(scene)};
+    frame_describe_sea(scene, &out->sea);
     struct surface_layer_desc layers[SCENE_MAX_LAYERS];
     struct surface_desc desc;
     ground_describe(ctx, scene, layers, &desc);
@@ -97,6 +101,12 @@ static void look(const void *user, struct vec3 direction, struct reference_look 
     out->has_colour = surface_picture(surface, SURFACE_COLOUR, direction, out->albedo_rgb);
     out->has_colour = out->has_colour || has_biomes;
     surface_picture(surface, SURFACE_LIGHTS, direction, out->glow_rgb);
+    double code = 0;
+    out->water = relief->sea.is_there ? surface_water(surface, direction, &code) : 0;
+    const float *volume = relief->sea.water[lrint(code * (SKY_SEA_DEPTHS - 1))];
+    for (int c = 0; c < 3; c++) {
+        out->water_rgb[c] = (double)volume[c];
+    }
 }
 
 struct reference_surface relief_surface(const struct relief *relief)
@@ -104,6 +114,9 @@ struct reference_surface relief_surface(const struct relief *relief)
     return (struct reference_surface){.user = relief,
                                       .lowest_m = surface_min_altitude(&relief->surface),
                                       .highest_m = surface_max_altitude(&relief->surface),
+                                      .sea = {fmax(relief->sea.mean_square_slope, 1e-6),
+                                              relief->sea.index, relief->sea.white_share,
+                                              relief->sea.white_albedo},
                                       .white_cd_m2 = relief->lights_cd_m2,
                                       .altitude_m = find_altitude,
                                       .step_m = find_step,

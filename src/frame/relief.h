@@ -6,6 +6,7 @@
 
 #include "reference/surface.h"
 #include "scene/scene.h"
+#include "sky/sea.h"
 #include "terrain/ceiling.h"
 
 struct relief {
@@ -13,6 +14,7 @@ struct relief {
     struct surface surface;
     struct terrain_ceiling ceiling;
     double lights_cd_m2;
+    struct sky_sea sea;
 };
 
 // Reads the rasters of a scene, which must outlive the relief. As surface_init_on_cpu.

@@ -27,6 +27,9 @@ static const double lift = 1e-9;
 static const double depth_tolerance = 1e-8;
 enum { MAX_INVERSION_STEPS = 40 };
 
+// Water sends back less than most ground, but into few directions.
+static const double sea_worth = 0.2;
+
 // A ray of the path with all that is known about it.
 struct flight {
     struct reference_ray ray;
@@ -38,6 +41,7 @@ struct flight {
     lanes4 end_transmittance;
     struct reference_look look; // where it hits the ground
     lanes4 albedo, glow;
+    lanes4 volume; // of the water, where there is some
 };
 
 // How far toward the sun from the planet's centre a ray begins, and how fast it goes there.
@@ -134,6 +138,7 @@ static void look_at_ground(const struct reference_tracer *tracer, const struct r
     lanes4 albedo = {0};
     for (int c = 0; c < 3; ++c) {
         albedo += tracer->colour_albedo[c] * flight->look.albedo_rgb[c];
+        flight->volume += tracer->colour_albedo[c] * flight->look.water_rgb[c];
         flight->glow += tracer->colour_albedo[c] * flight->look.glow_rgb[c];
     }
     flight->glow *= tracer->glow;
@@ -142,6 +147,7 @@ static void look_at_ground(const struct reference_tracer *tracer, const struct r
             flight->albedo[k] = fmin(fmax(albedo[k], 0), 1);
         }
         flight->glow[k] = fmax(flight->glow[k], 0);
+        flight->volume[k] = fmin(fmax(flight->volume[k], 0), 1);
     }
 }
 
@@ -283,7 +289,7 @@ static void collide(const struct reference_tracer *tracer, const struct flight *
                     passed / density;
     path->position =
         vec3_add(path->position, vec3_scale(path->direction, s_m - flight->ray.begin_m));
-    path->is_on_ground = false;
+    path->is_on_ground = path->is_on_sea = false;
 }
 
 static void hit_ground(const struct reference_tracer *tracer, const struct flight *flight,
@@ -298,7 +304,14 @@ static void hit_ground(const struct reference_tracer *tracer, const struct fligh
     path->normal = flight->look.normal;
     path->albedo = flight->albedo;
     path->radiance += path->weight * flight->glow;
-    path->weight *= flight->albedo;
+    path->is_on_sea = flight->look.water > 0 && reference_next(path) < flight->look.water;
+    if (path->is_on_sea) {
+        path->facets = (struct reference_facets){.up = vec3_normalize(at),
+                                                 .view = vec3_scale(path->direction, -1),
+                                                 .volume = flight->volume};
+    } else {
+        path->weight *= flight->albedo;
+    }
 }
 
 // Moves on to the end of what has been looked at.
@@ -312,7 +325,8 @@ static double ground_worth(const struct flight *flight, int count)
 {
     double worth = 0;
     for (int k = 0; k < count && flight->hits_ground; ++k) {
-        const double least = flight->glow[k] > 0 ? glowing_worth : 0;
+        const double least =
+            fmax(flight->glow[k] > 0 ? glowing_worth : 0, sea_worth * flight->look.water);
         worth += flight->share[k] * flight->end_transmittance[k] * fmax(flight->albedo[k], least);
     }
     return worth;

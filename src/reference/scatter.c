@@ -112,9 +112,12 @@ static double draw_lobe(const struct reference_tracer *tracer, const double *par
 static double density_of(const struct reference_tracer *tracer, const struct reference_path *path,
                          const struct lobes *lobes, struct vec3 direction)
 {
-    const double plain = path->is_on_ground ? fmax(0, vec3_dot(path->normal, direction)) / pi
-                                            : lobe_density(tracer, lobes->share,
-                                                           vec3_dot(path->direction, direction));
+    const double plain =
+        path->is_on_sea
+            ? reference_sea_density(&tracer->world->scene.surface->sea, &path->facets, direction)
+        : path->is_on_ground
+            ? fmax(0, vec3_dot(path->normal, direction)) / pi
+            : lobe_density(tracer, lobes->share, vec3_dot(path->direction, direction));
     double density = (1 - lobes->glow.share - lobes->star_share) * plain;
     if (lobes->star_share > 0) {
         density += lobes->star_share * lobe_density(tracer, lobes->star_part,
@@ -146,12 +149,22 @@ static struct vec3 draw_direction(const struct reference_tracer *tracer, const s
     } else if (drawn < lobes->star_share + lobes->glow.share) {
         axis = lobes->glow.axis;
         cosine = phase_draw_henyey_greenstein(glow_g, &path->random);
+    } else if (path->is_on_sea) {
+        return reference_sea_draw(&tracer->world->scene.surface->sea, &path->facets, &path->random);
     } else if (path->is_on_ground) {
         cosine = sqrt(reference_next(path));
     } else {
         cosine = draw_lobe(tracer, lobes->share, path);
     }
     return reference_turn(axis, cosine, 2 * pi * reference_next(path));
+}
+
+lanes4 reference_ground_value(const struct reference_tracer *tracer,
+                              const struct reference_path *path, struct vec3 direction)
+{
+    return path->is_on_sea
+               ? reference_sea_value(&tracer->world->scene.surface->sea, &path->facets, direction)
+               : lanes4_set(fmax(0, vec3_dot(path->normal, direction)) / pi);
 }
 
 lanes4 reference_phase(const struct reference_tracer *tracer, const struct reference_path *path,
@@ -184,7 +197,7 @@ void reference_redirect(const struct reference_tracer *tracer, struct reference_
     const struct vec3 direction = draw_direction(tracer, &lobes, path);
     const double density = density_of(tracer, path, &lobes, direction);
     if (path->is_on_ground) {
-        path->weight *= fmax(0, vec3_dot(path->normal, direction)) / (pi * density);
+        path->weight *= reference_ground_value(tracer, path, direction) / density;
     } else {
         path->weight *=
             reference_phase(tracer, path, vec3_dot(path->direction, direction)) / density;

@@ -63,8 +63,7 @@ void reference_add_starlight(const struct reference_tracer *tracer, struct refer
     double factor = 2 / (1 + star->cos_radius);
     lanes4 turned;
     if (path->is_on_ground) {
-        factor *= fmax(0, vec3_dot(path->normal, to_sun)) / pi;
-        turned = path->weight;
+        turned = path->weight * reference_ground_value(tracer, path, to_sun);
     } else {
         turned = path->weight * reference_phase(tracer, path, vec3_dot(path->direction, to_sun));
         if (reference_shares_disc(tracer, star)) {
@@ -72,7 +71,7 @@ void reference_add_starlight(const struct reference_tracer *tracer, struct refer
             factor *= sampled / (sampled + reference_direction_density(tracer, path, to_sun));
         }
     }
-    if (factor > 0) {
+    if (factor > 0 && lanes4_sum(&turned) > 0) {
         path->radiance += turned * factor * reference_transmittance(tracer, path, to_sun);
     }
 }

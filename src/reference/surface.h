@@ -6,7 +6,7 @@
 // Lambert says. Whoever has the heights and colours says what they are; this module only asks.
 
 #include "base/vec3.h"
-#include "reference/lanes.h"
+#include "reference/sea.h"
 
 #include <stdbool.h>
 
@@ -15,7 +15,9 @@ struct reference_look {
     struct vec3 normal; // unit
     bool has_colour;    // else its albedo is the medium's
     double albedo_rgb[3];
-    double glow_rgb[3]; // light of its own: 1 is white of `white_cd_m2`
+    double water;        // part that is open water, which reflects as the surface's sea does
+    double water_rgb[3]; // albedo of its volume: struct reference_facets
+    double glow_rgb[3];  // light of its own: 1 is white of `white_cd_m2`
 };
 
 // Functions may be called from many threads. Directions are from the planet's centre, of any
@@ -23,6 +25,7 @@ struct reference_look {
 struct reference_surface {
     const void *user;
     double lowest_m, highest_m; // altitudes between which the ground lies
+    struct reference_sea sea;   // where a look says that there is water
     double white_cd_m2;         // luminance of the ground's own light where that is white
     // Altitude above the medium's ground.
     double (*altitude_m)(const void *user, struct vec3 direction);

@@ -92,6 +92,8 @@ struct reference_path {
     int order;       // of the event that comes next, from 1
     bool is_on_ground;
     struct vec3 normal; // on the ground
+    bool is_on_sea;     // it is open water; then:
+    struct reference_facets facets;
     lanes4 albedo;
     struct reference_columns densities; // in the air
 };
@@ -149,6 +151,11 @@ bool reference_shares_disc(const struct reference_tracer *tracer,
 // ground or a body is in the way. May be drawn at random, with the right mean, where it is small.
 lanes4 reference_transmittance(const struct reference_tracer *tracer, struct reference_path *path,
                                struct vec3 direction);
+
+// What the ground sends from a direction back along the path, times the cosine, over its albedo:
+// the weight has that already, except of the sea's.
+lanes4 reference_ground_value(const struct reference_tracer *tracer,
+                              const struct reference_path *path, struct vec3 direction);
 
 // Phase function of the mixture at the path's place, sr^-1.
 lanes4 reference_phase(const struct reference_tracer *tracer, const struct reference_path *path,

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "sky/sea.h"
 
-#include "shared/fresnel.glsl"
 #include "shared/phase.glsl"
+#include "shared/sea.glsl"
 #include "shared/sky_map.glsl"
 #include "spectrum/cie.h"
 
@@ -25,6 +25,7 @@ struct facet {
 static void find_facets(const struct sky_sea *sea, double view_mu, struct facet facets[FACETS])
 {
     const double sine = sqrt(fmax(1 - view_mu * view_mu, 0));
+    const double hidden = sea_hidden(view_mu, sea->mean_square_slope);
     double sum = 0;
     for (int i = 0; i < FACETS; i++) {
         // Slopes with the density exp(-s^2 / mss): a ring holds the same share of them as others.
@@ -38,10 +39,11 @@ static void find_facets(const struct sky_sea *sea, double view_mu, struct facet 
         struct facet *f = &facets[i];
         f->weight = fmax(seen, 0);
         f->reflectance = fresnel_reflectance(fmin(seen / sqrt(length2), 1), sea->index);
-        // Light that seems to come from below the horizon was mirrored there before, by what is
-        // taken for the mean surface; the rest of it went into the water.
-        f->mu = fabs(twice - view_mu);
-        f->reflectance *= twice < view_mu ? fresnel_reflectance(f->mu, sea->index) : 1;
+        f->mu = fmax(twice - view_mu, 0);
+        // What another wave hides on the way to the sky comes from below the horizon as well: most
+        // of it went into the water there.
+        const double open = sea_hidden(f->mu, sea->mean_square_slope);
+        f->reflectance *= twice > view_mu ? (1 + hidden) / (1 + hidden + open) : 0;
         const double along = twice * x + sine, across = twice * y;
         const double level = fmax(sqrt(along * along + across * across), 1e-12);
         f->turn_x = along / level;

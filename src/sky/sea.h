@@ -25,8 +25,8 @@ double sea_surface_reflectance(const struct sky_sea *sea, double mu);
 
 // Mirrored light: [view][sun][azimuth][BAND_COUNT], logarithms of bands per unit irradiance of the
 // star, means over the facets that a view sees weighed by their reflectance. Views are uniform in
-// the root of their cosine, suns as in the 4D table, azimuths of the mirrored ray from the star's in
-// the sine of their half: dense where the aureole is.
+// the root of their cosine, suns as in the 4D table, azimuths of the mirrored ray from the star's
+// in the sine of their half: dense where the aureole is.
 enum { SEA_MIRROR_VIEWS = 24, SEA_MIRROR_AZIMUTHS = 16 };
 // TRL_ERROR_MEMORY.
 TRL_MUST_USE trl_result sea_mirror_make(const struct atmosphere *atmosphere,

@@ -377,8 +377,9 @@ static trl_result fill_surface(const struct surface_desc *desc, struct surface *
     if (result == TRL_OK) {
         result = load_start_stream(&loader);
     }
-    if (result == TRL_OK && !out->stream) {
-        free_masks(out); // tiles need them as they come
+    // Tiles need them as they come, and looks without a GPU.
+    if (result == TRL_OK && !out->stream && !(out->depth.is_told && !out->gpu)) {
+        free_masks(out);
     }
     if (result != TRL_OK) {
         surface_finish(out);

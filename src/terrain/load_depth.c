@@ -14,7 +14,7 @@ trl_result load_mask(struct surface *surface, const struct raster *raster,
     const size_t index = surface->counts[SURFACE_WATER];
     struct gpu *gpu = surface->depth.is_told ? NULL : surface->gpu;
     trl_result result = layer_load_mask(gpu, raster, layer, &surface->masks[index]);
-    if (result == TRL_OK && surface->depth.is_told && surface->gpu) {
+    if (result == TRL_OK && surface->depth.is_told) {
         // All 0: as deep as can be.
         surface->depths[index] =
             mem_alloc(surface->ctx, (size_t)layer->frame.width * layer->frame.height, 1);
@@ -93,7 +93,7 @@ static void note_row(const struct mask_row *row, const struct terrain_layer *lay
             row->codes[x] = code_of(layer_texel(layer, (int64_t)x + step.x, same + step.y));
             continue;
         }
-        const struct layer_geo at = layer_geo_of(mask, (int64_t)x + step.x, (int64_t)y + step.y);
+        const struct layer_geo at = layer_geo_of(mask, (double)x + step.x, (double)y + step.y);
         const struct layer_place p = layer_locate(&layer->frame, at.latitude, at.longitude);
         if (p.weight > 0) {
             row->codes[x] = code_of(layer_sample_held_linear(layer, p.x, p.y));
@@ -123,7 +123,8 @@ void load_note_depths(struct surface *surface, const struct terrain_layer *layer
 trl_result load_upload_depths(struct surface *surface)
 {
     trl_result result = TRL_OK;
-    for (size_t i = 0; i < surface->counts[SURFACE_WATER] && result == TRL_OK; i++) {
+    for (size_t i = 0; surface->gpu && i < surface->counts[SURFACE_WATER] && result == TRL_OK;
+         i++) {
         if (surface->depths[i]) {
             result = layer_upload_mask(surface->gpu, surface->masks[i], surface->depths[i],
                                        &surface->layers[SURFACE_WATER][i]);

@@ -3,6 +3,7 @@
 #include "terrain/look.h"
 
 #include "shared/blend.glsl"
+#include "shared/sea.glsl"
 
 #include <math.h>
 
@@ -54,6 +55,27 @@ bool surface_picture(const struct surface *surface, enum surface_kind kind, stru
         rgb[c] = root[c] * root[c];
     }
     return is_covered;
+}
+
+double surface_water(const struct surface *surface, struct vec3 direction, double *depth_code)
+{
+    const struct place at = find_place(direction);
+    double water = 0;
+    *depth_code = 0;
+    for (size_t i = 0; i < surface->counts[SURFACE_WATER] && surface->depth.is_told; i++) {
+        const struct layer_frame *frame = &surface->layers[SURFACE_WATER][i].frame;
+        const struct layer_place p = layer_locate(frame, at.latitude, at.longitude);
+        if (!(p.weight > 0) || !surface->masks[i]) {
+            continue;
+        }
+        const size_t index = layer_texel_index(frame, lrint(p.x), lrint(p.y));
+        water += p.weight * (surface->masks[i][index] / 255.0 - water);
+        *depth_code = surface->depths[i] ? surface->depths[i][index] / 255.0 : 0;
+    }
+    if (surface->depth.everywhere_m >= 0) {
+        *depth_code = sea_depth_code(surface->depth.everywhere_m);
+    }
+    return water;
 }
 
 static bool is_within(const struct layer_frame *frame, struct vec3 up, double reach_rad)

@@ -15,6 +15,10 @@ bool surface_picture(const struct surface *surface, enum surface_kind kind, stru
 // Linear sRGB of the biomes of invented ground over `rgb`. False if there are none.
 bool surface_biomes(const struct surface *surface, struct vec3 direction, double rgb[3]);
 
+// Part of a place that is open water by the masks, and its depth by shared/sea.glsl, where the
+// surface tells depths; masks in tiles at the level that is held.
+double surface_water(const struct surface *surface, struct vec3 direction, double *depth_code);
+
 // Unit normal of the composed heights.
 struct vec3 surface_normal(const struct surface *surface, struct vec3 direction);
 

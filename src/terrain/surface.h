@@ -91,7 +91,8 @@ struct surface {
     double min_altitude_m, max_altitude_m;
     struct stream *stream; // owned; NULL: all layers are held whole
     struct surface_depth depth;
-    uint8_t *depths[SURFACE_MAX_LAYERS]; // owned, while loading; codes for texels of the masks
+    // Owned, while loading or without a GPU; codes for texels of the masks.
+    uint8_t *depths[SURFACE_MAX_LAYERS];
     uint8_t *masks[SURFACE_MAX_LAYERS]; // owned; bytes of the water layers, where there is a stream
 };
 
