@@ -14,9 +14,9 @@ static const double SMALLEST_SHARE = 0.005;
 // Of the light of the stars alone, which is 5e-4 lx: what is dimmer cannot be seen either.
 static const double SMALLEST_LX = 2.5e-6;
 
-void moonlight_init(const struct sky_desc *desc, struct moonlight *out)
+void moonlight_init(const struct sky_desc *desc, struct spectral_sea *sea, struct moonlight *out)
 {
-    *out = (struct moonlight){.gpu = desc->gpu, .body_count = desc->body_count};
+    *out = (struct moonlight){.gpu = desc->gpu, .sea = sea, .body_count = desc->body_count};
     for (size_t i = 0; i < desc->body_count; i++) {
         out->bodies[i] = desc->bodies[i];
     }
@@ -149,13 +149,16 @@ struct sky_moon moonlight_find(const struct moonlight *moonlight, const struct a
 static trl_result make_program(const struct moonlight *moonlight, const char *fragment,
                                const char *define, struct gpu_program *out)
 {
+    const bool has_sea = define && moonlight->sea->water.sea;
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", moonlight->maps.atmosphere->peaked.count);
-    const char *const defines[] = {peaked, "MOON", define};
+    const char *const defines[] = {peaked, "MOON", define, "SEA"};
     const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
                                           .fragment = fragment,
                                           .defines = defines,
-                                          .define_count = define ? 3 : 2};
+                                          .define_count = has_sea  ? 4
+                                                          : define ? 3
+                                                                   : 2};
     gpu_program_finish(out); // what an attempt that failed has left
     return gpu_program_init(moonlight->gpu, &desc, out);
 }
@@ -250,6 +253,10 @@ static trl_result draw_kind(struct moonlight *moonlight, const struct sky_pixels
                             enum sky_kind kind, const struct sky_view *view)
 {
     struct gpu_program *program = &moonlight->air;
+    if (kind == SKY_KIND_SEA) {
+        program = &moonlight->sea->programs[0];
+        spectral_sea_set(moonlight->sea, view, program);
+    }
     if (kind == SKY_KIND_GROUND) {
         program = sky_view_is_bare(view) ? &moonlight->ground_bare : &moonlight->ground_surface;
     }
@@ -269,6 +276,11 @@ trl_result moonlight_draw(struct moonlight *moonlight, const struct sky_pixels *
     camera.sun_direction = view->moon.sight.direction;
     moonlit.camera = &camera;
     moonlit.is_added = true;
-    const trl_result result = draw_kind(moonlight, pixels, SKY_KIND_AIR, &moonlit);
-    return result == TRL_OK ? draw_kind(moonlight, pixels, SKY_KIND_GROUND, &moonlit) : result;
+    trl_result result = draw_kind(moonlight, pixels, SKY_KIND_AIR, &moonlit);
+    if (result == TRL_OK) {
+        result = draw_kind(moonlight, pixels, SKY_KIND_GROUND, &moonlit);
+    }
+    return result == TRL_OK && sea_water_is_seen(&moonlight->sea->water, view)
+               ? draw_kind(moonlight, pixels, SKY_KIND_SEA, &moonlit)
+               : result;
 }

@@ -9,9 +9,11 @@
 
 #include "sky/pixels.h"
 #include "sky/spectral_maps.h"
+#include "sky/spectral_sea.h"
 
 struct moonlight {
     struct gpu *gpu;
+    struct spectral_sea *sea; // the star's; mirrors the same for any light
     size_t body_count;
     struct body_desc bodies[CAMERA_MAX_BODIES];
     struct spectral_maps maps; // with the atmosphere of others; made when first asked for
@@ -19,7 +21,8 @@ struct moonlight {
     struct gpu_program air, ground_bare, ground_surface;
 };
 
-void moonlight_init(const struct sky_desc *desc, struct moonlight *out);
+// The sea must outlive it, and be prepared before a draw, also without an eclipse.
+void moonlight_init(const struct sky_desc *desc, struct spectral_sea *sea, struct moonlight *out);
 void moonlight_finish(struct moonlight *moonlight);
 
 // Before the atmosphere goes away: what was made for it.

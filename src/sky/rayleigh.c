@@ -7,6 +7,7 @@
 //                           of a half float and what that leaves (shaders/shared/rayleigh.glsl)
 #include "scatter/rayleigh.h"
 #include "sky/pixels.h"
+#include "sky/sea_water.h"
 
 #include <stdio.h>
 
@@ -16,7 +17,8 @@ struct rayleigh_sky {
     float spectrum[4 * TRL_RAYLEIGH_MAX_WAVELENGTHS]; // u_spectrum and u_matter of air.glsl
     float matter[4 * TRL_RAYLEIGH_MAX_WAVELENGTHS];
     struct sky_pixels pixels;
-    struct gpu_program air, disc, ground_bare, ground_surface;
+    struct gpu_program air, disc, ground_bare, ground_surface, sea;
+    struct sea_water water;
     struct gpu_texture depth; // none with the fit
 };
 
@@ -70,7 +72,9 @@ static trl_result make_programs(struct rayleigh_sky *sky, struct gpu *gpu)
         {&sky->disc, "sky/rayleigh/sky.frag", "STAR"},
         {&sky->ground_bare, "sky/rayleigh/ground.frag", NULL},
         {&sky->ground_surface, "sky/rayleigh/ground.frag", "SURFACE"},
+        {&sky->sea, "sky/rayleigh/sea.frag", "SURFACE"},
     };
+    const size_t variant_count = sizeof variants / sizeof *variants - (sky->pixels.has_sea ? 0 : 1);
     const trl_rayleigh_desc *options = &sky->model.desc;
     char samples[32];
     char wavelengths[32];
@@ -79,8 +83,8 @@ static trl_result make_programs(struct rayleigh_sky *sky, struct gpu *gpu)
     snprintf(wavelengths, sizeof wavelengths, "WAVELENGTHS %u", (unsigned)options->wavelengths);
     snprintf(heights, sizeof heights, "FIT_HEIGHTS %u", (unsigned)options->fit_heights);
     trl_result result = TRL_OK;
-    for (size_t i = 0; i < sizeof variants / sizeof *variants && result == TRL_OK; i++) {
-        const char *defines[5] = {samples, wavelengths};
+    for (size_t i = 0; i < variant_count && result == TRL_OK; i++) {
+        const char *defines[6] = {samples, wavelengths};
         size_t count = 2;
         if (options->optical_depth == TRL_RAYLEIGH_FIT) {
             defines[count++] = heights;
@@ -90,6 +94,9 @@ static trl_result make_programs(struct rayleigh_sky *sky, struct gpu *gpu)
         }
         if (variants[i].define) {
             defines[count++] = variants[i].define;
+        }
+        if (sky->pixels.has_sea && variants[i].program == &sky->ground_surface) {
+            defines[count++] = "SEA";
         }
         const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
                                               .fragment = variants[i].fragment,
@@ -135,6 +142,10 @@ static trl_result init(const struct sky_desc *desc, struct rayleigh_sky *sky)
     if (result == TRL_OK) {
         result = make_programs(sky, desc->gpu);
     }
+    if (result == TRL_OK) {
+        sea_water_init(desc, &sky->water);
+        result = sea_water_prepare(&sky->water, desc->gpu, NULL);
+    }
     const bool has_map = desc->rayleigh->optical_depth == TRL_RAYLEIGH_TEXTURE;
     return result == TRL_OK && has_map ? make_depth(sky, desc->gpu) : result;
 }
@@ -147,6 +158,8 @@ static void rayleigh_destroy(void **self)
     gpu_program_finish(&sky->disc);
     gpu_program_finish(&sky->ground_bare);
     gpu_program_finish(&sky->ground_surface);
+    gpu_program_finish(&sky->sea);
+    sea_water_finish(&sky->water);
     gpu_texture_finish(&sky->depth);
     mem_free(sky->ctx, sky);
     *self = NULL;
@@ -246,7 +259,14 @@ static trl_result rayleigh_draw(void *self, const struct sky_view *view)
     if (result == TRL_OK) {
         result = draw_kind(sky, &sky->disc, SKY_KIND_STAR, view);
     }
-    return result == TRL_OK ? draw_kind(sky, ground, SKY_KIND_GROUND, view) : result;
+    if (result == TRL_OK) {
+        result = draw_kind(sky, ground, SKY_KIND_GROUND, view);
+    }
+    if (result == TRL_OK && sea_water_is_seen(&sky->water, view)) {
+        sea_water_set(&sky->water, view, &sky->sea);
+        result = draw_kind(sky, &sky->sea, SKY_KIND_SEA, view);
+    }
+    return result;
 }
 
 const struct sky_model sky_rayleigh = {.create = rayleigh_create,

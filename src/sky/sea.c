@@ -55,14 +55,16 @@ static void find_facets(const struct sky_sea *sea, double view_mu, struct facet 
     }
 }
 
-double sea_surface_reflectance(const struct sky_sea *sea, double mu)
+double sea_surface_reflectance(const struct sky_sea *sea, double mu, double *mirror_mu)
 {
     struct facet facets[FACETS];
     find_facets(sea, mu, facets);
-    double sum = 0;
+    double sum = 0, mus = 0;
     for (int i = 0; i < FACETS; i++) {
         sum += facets[i].weight * facets[i].reflectance;
+        mus += facets[i].weight * facets[i].reflectance * facets[i].mu;
     }
+    *mirror_mu = mus / sum;
     return sum;
 }
 

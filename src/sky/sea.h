@@ -20,8 +20,9 @@ struct sky_sea {
     float water[SKY_SEA_DEPTHS][3];
 };
 
-// Reflectance of the surface from above for a ray with that cosine, over the facets that it sees.
-double sea_surface_reflectance(const struct sky_sea *sea, double mu);
+// Reflectance of the surface from above for a ray with that cosine, over the facets that it sees,
+// and the cosine of the zenith angle where they mirror, in the mean weighed by their reflectance.
+double sea_surface_reflectance(const struct sky_sea *sea, double mu, double *mirror_mu);
 
 // Mirrored light: [view][sun][azimuth][BAND_COUNT], logarithms of bands per unit irradiance of the
 // star, means over the facets that a view sees weighed by their reflectance. Views are uniform in

@@ -13,6 +13,7 @@
 // Depth, light and medium are in four bands per unit irradiance of the star (scatter/bands.h).
 #include "scatter/single.h"
 #include "sky/pixels.h"
+#include "sky/sea_water.h"
 #include "sky/single_spheres.h"
 
 #include <math.h>
@@ -26,7 +27,8 @@ struct single {
     struct optics *optics;       // owned
     struct single_tables tables; // its texels are freed once they are on the GPU
     struct sky_pixels pixels;
-    struct gpu_program air, star, ground_bare, ground_surface;
+    struct gpu_program air, star, ground_bare, ground_surface, sea;
+    struct sea_water water;
     struct gpu_texture scattered[SINGLE_CHANNELS];
     struct gpu_texture depth, light, medium, phase;
     struct single_spheres spheres; // when they are asked for
@@ -91,16 +93,21 @@ static trl_result make_programs(struct single *sky)
         {&sky->star, "sky/single/sky.frag", "STAR"},
         {&sky->ground_bare, "sky/single/ground.frag", NULL},
         {&sky->ground_surface, "sky/single/ground.frag", "SURFACE"},
+        {&sky->sea, "sky/single/sea.frag", "SURFACE"},
     };
+    const size_t count = sizeof variants / sizeof *variants - (sky->pixels.has_sea ? 0 : 1);
     char channels[32];
     snprintf(channels, sizeof channels, "CHANNEL_COUNT %d", sky->tables.channels);
     trl_result result = TRL_OK;
-    for (size_t i = 0; i < sizeof variants / sizeof *variants && result == TRL_OK; i++) {
-        const char *const defines[] = {channels, variants[i].define};
+    for (size_t i = 0; i < count && result == TRL_OK; i++) {
+        const char *const defines[] = {channels, variants[i].define, "SEA"};
+        const bool has_sea = sky->pixels.has_sea && variants[i].program == &sky->ground_surface;
         const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
                                               .fragment = variants[i].fragment,
                                               .defines = defines,
-                                              .define_count = variants[i].define ? 2 : 1};
+                                              .define_count = has_sea              ? 3
+                                                              : variants[i].define ? 2
+                                                                                   : 1};
         result = gpu_program_init(sky->gpu, &desc, variants[i].program);
     }
     return result;
@@ -123,6 +130,10 @@ static trl_result init(const struct sky_desc *desc, struct single *sky)
     if (result == TRL_OK) {
         result = make_maps(sky);
     }
+    if (result == TRL_OK) {
+        sea_water_init(desc, &sky->water);
+        result = sea_water_prepare(&sky->water, sky->gpu, &sky->tables.bands);
+    }
     single_tables_drop(sky->ctx, &sky->tables);
     return result;
 }
@@ -137,6 +148,8 @@ static void single_destroy(void **self)
     gpu_program_finish(&sky->star);
     gpu_program_finish(&sky->ground_bare);
     gpu_program_finish(&sky->ground_surface);
+    gpu_program_finish(&sky->sea);
+    sea_water_finish(&sky->water);
     for (int c = 0; c < SINGLE_CHANNELS; c++) {
         gpu_texture_finish(&sky->scattered[c]);
     }
@@ -255,7 +268,14 @@ static trl_result single_draw(void *self, const struct sky_view *view)
     if (result == TRL_OK) {
         result = draw_kind(sky, &sky->star, SKY_KIND_STAR, view);
     }
-    return result == TRL_OK ? draw_kind(sky, ground, SKY_KIND_GROUND, view) : result;
+    if (result == TRL_OK) {
+        result = draw_kind(sky, ground, SKY_KIND_GROUND, view);
+    }
+    if (result == TRL_OK && sea_water_is_seen(&sky->water, view)) {
+        sea_water_set(&sky->water, view, &sky->sea);
+        result = draw_kind(sky, &sky->sea, SKY_KIND_SEA, view);
+    }
+    return result;
 }
 
 const struct sky_model sky_single = {.create = single_create,

@@ -123,8 +123,8 @@ static trl_result init(const struct sky_desc *desc, struct spectral *sky)
     }
     if (result == TRL_OK) {
         sky_march_init(&sky->pixels, &sky->march);
-        moonlight_init(desc, &sky->moonlight);
         spectral_sea_init(desc, &sky->sea);
+        moonlight_init(desc, &sky->sea, &sky->moonlight);
         result = make_programs(sky, (struct shades){0});
     }
     return result;
@@ -263,6 +263,9 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
         result =
             spectral_sea_prepare(&sky->sea, &sky->maps, view, find_shades(sky, view).has_eclipse);
     }
+    if (result == TRL_OK && view->moon.is_there) {
+        result = spectral_sea_prepare(&sky->sea, &sky->maps, view, false);
+    }
     return result == TRL_OK ? moonlight_prepare(&sky->moonlight, &sky->maps, view) : result;
 }
 
@@ -338,9 +341,9 @@ static trl_result spectral_draw(void *self, const struct sky_view *view)
     if (result == TRL_OK) {
         result = draw_kind(sky, ground, SKY_KIND_GROUND, view);
     }
-    if (result == TRL_OK && spectral_sea_is_seen(&sky->sea, view)) {
+    if (result == TRL_OK && sea_water_is_seen(&sky->sea.water, view)) {
         struct gpu_program *sea = &sky->sea.programs[shades.has_eclipse];
-        spectral_sea_set(&sky->sea, sea, !view->moon.is_main);
+        spectral_sea_set(&sky->sea, view, sea);
         result = draw_kind(sky, sea, SKY_KIND_SEA, view);
     }
     return result == TRL_OK ? moonlight_draw(&sky->moonlight, &sky->pixels, view) : result;

@@ -95,10 +95,12 @@ static void glint_and_mirrored_sky_are_one_surface(void **state)
         const struct sky_sea sea = {.mean_square_slope = slopes[k], .index = 1.34};
         for (double mu = 0.2; mu < 1.01; mu += 0.2) {
             const double glint = sum_glint(mu, slopes[k], 1.34);
-            const double mirrored = sea_surface_reflectance(&sea, mu);
+            double mirror_mu;
+            const double mirrored = sea_surface_reflectance(&sea, mu, &mirror_mu);
             printf("mss %.3f mu %.1f: glint %.5f, mirrored %.5f\n", slopes[k], mu, glint, mirrored);
             // 160 facets stand for all.
             assert_close(mirrored / glint, 1, 0.006);
+            assert_true(mirror_mu > mu - 0.2 && mirror_mu <= 1);
         }
     }
 }

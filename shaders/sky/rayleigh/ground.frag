@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Radiance of pixels with ground: lit by the star alone, behind air. With SURFACE the ground comes
-// from the surface buffers, else it is the bare reference sphere.
+// from the surface buffers, else it is the bare reference sphere. With SEA open water is drawn by
+// sea.frag, and is black here.
 // validate: SAMPLES 5; WAVELENGTHS 10
 // validate: SAMPLES 5; WAVELENGTHS 10; FIT_HEIGHTS 10; SURFACE
 // validate: SAMPLES 5; WAVELENGTHS 10; SIMPLE; SURFACE
+// validate: SAMPLES 5; WAVELENGTHS 10; SURFACE; SEA
 
 #include "sky/ground.glsl"
 #include "sky/rayleigh/air.glsl"
@@ -38,6 +40,9 @@ void main()
     float star = star_column(ground.altitude_m, sun_mu * (u_planet.x + ground.altitude_m));
     float share = ground_share(ground, up, sun_mu) / SHARED_PI;
     vec3 light = air_light(sight);
+#ifdef SEA
+    share *= 1.0 - ground.water;
+#endif
 #ifdef SURFACE
     light += max(star_through(view + star), vec3(0.0)) * ground.albedo * share;
     light += max(star_through(view), vec3(0.0)) * u_night_light * ground.lights;

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Radiance of pixels with ground: lit by the star alone, behind air that scatters once. With
-// SURFACE the ground comes from the surface buffers, else it is the bare reference sphere.
+// SURFACE the ground comes from the surface buffers, else it is the bare reference sphere. With SEA
+// open water is drawn by sea.frag, and is black here.
 // validate: CHANNEL_COUNT 2
 // validate: CHANNEL_COUNT 0
 // validate: CHANNEL_COUNT 4; SURFACE
+// validate: CHANNEL_COUNT 2; SURFACE; SEA
 // validate: CHANNEL_COUNT 2; SPHERE
 // validate: CHANNEL_COUNT 2; SPHERE; INTEGRAL
 
@@ -43,6 +45,9 @@ vec4 light_ground(Ray ray, Ground ground)
     float incidence = max(dot(ground.normal, u_sun + up * (height - p.sun_mu)), 0.0);
     vec4 reflected = star_light(p) * (incidence * ground.star_visible * (1.0 / SHARED_PI));
 #ifdef SURFACE
+#ifdef SEA
+    reflected *= 1.0 - ground.water;
+#endif
     return to_bands(u_bands_from_rgb, ground.albedo) * reflected +
            to_bands(u_bands_of_light, ground.lights);
 #else

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "sky/sea_water.h"
+
+#include "shared/sea.glsl"
+
+#include <math.h>
+
+void sea_water_init(const struct sky_desc *desc, struct sea_water *out)
+{
+    *out = (struct sea_water){.sea = desc->sea && desc->sea->is_there ? desc->sea : NULL,
+                              .disc_slope = sea_disc_slope(desc->medium->star_angular_radius_rad)};
+}
+
+void sea_water_finish(struct sea_water *water)
+{
+    gpu_texture_finish(&water->texture);
+    *water = (struct sea_water){0};
+}
+
+bool sea_water_is_seen(const struct sea_water *water, const struct sky_view *view)
+{
+    return water->sea && !sky_view_is_bare(view);
+}
+
+static void fill(const struct sky_sea *sea, const struct bands *bands, float *texels)
+{
+    for (int i = 0; i < SKY_SEA_DEPTHS; i++) {
+        for (int b = 0; b < BAND_COUNT; b++) {
+            float sum = !bands && b < 3 ? sea->water[i][b] : 0;
+            for (int k = 0; bands && k < 3; k++) {
+                sum += bands->bands_from_rgb[b][k] * sea->water[i][k];
+            }
+            texels[i * BAND_COUNT + b] = fmaxf(sum, 0);
+        }
+    }
+    float *surface = texels + SKY_SEA_DEPTHS * BAND_COUNT;
+    for (int i = 0; i < SKY_SEA_DEPTHS; i++) {
+        const double root = fmax((double)i / (SKY_SEA_DEPTHS - 1), 0.02);
+        double mirror_mu;
+        surface[i * BAND_COUNT] = (float)sea_surface_reflectance(sea, root * root, &mirror_mu);
+        surface[i * BAND_COUNT + 1] = (float)mirror_mu;
+    }
+}
+
+trl_result sea_water_prepare(struct sea_water *water, struct gpu *gpu, const struct bands *bands)
+{
+    if (!water->sea || water->texture.name) {
+        return TRL_OK;
+    }
+    float texels[2 * SKY_SEA_DEPTHS * BAND_COUNT] = {0};
+    fill(water->sea, bands, texels);
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "water";
+    desc.format = GPU_FORMAT_RGBA16F;
+    desc.width = SKY_SEA_DEPTHS;
+    desc.height = 2;
+    desc.data = texels;
+    return gpu_texture_init(gpu, &desc, &water->texture);
+}
+
+void sea_water_set(const struct sea_water *water, const struct sky_view *view,
+                   struct gpu_program *program)
+{
+    const struct sky_sea *s = water->sea;
+    gpu_program_set_texture(program, "u_water", &water->texture);
+    gpu_program_set_float(program, "u_shadowed", view->is_added == view->moon.is_main ? 1 : 0);
+    gpu_program_set_float(program, "u_sea_texel", 1.0f / SKY_SEA_DEPTHS);
+    sky_set_vec4(program, "u_sea", fmax(s->mean_square_slope + water->disc_slope, 1e-6), s->index,
+                 s->white_share, s->white_albedo);
+}
