@@ -128,6 +128,7 @@ static bool run_turn(struct viewer *viewer)
     const double now_s = glfwGetTime();
     const double elapsed_s = now_s - viewer->last_frame_s;
     const bool is_moving = controls_advance(viewer, elapsed_s);
+    viewer->view.time_s = now_s; // waves run while frames are drawn
     if (is_moving || viewer->is_changed) {
         viewer->last_change_s = now_s;
     }

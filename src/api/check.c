@@ -101,6 +101,7 @@ trl_result check_view(const trl_context *ctx, const trl_view *view, const trl_sc
         {"sun_latitude_or_elevation_rad", view->sun_latitude_or_elevation_rad, -quarter, quarter},
         {"sun_longitude_or_azimuth_rad", view->sun_longitude_or_azimuth_rad, -any, any},
         {"sidereal_rad", view->sidereal_rad, -any, any},
+        {"time_s", view->time_s, -1e12, 1e12},
         {"exposure_ev100", view->has_fixed_exposure ? view->exposure_ev100 : 0, -exposures,
          exposures},
         {"exposure_bias_ev", view->exposure_bias_ev, -exposures, exposures},

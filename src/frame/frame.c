@@ -266,7 +266,7 @@ struct camera_place frame_place(const struct frame *frame, double latitude_rad,
 }
 
 static trl_result draw_radiance(struct frame *frame, const struct camera *camera,
-                                double sidereal_rad)
+                                const trl_view *shown)
 {
     struct sky *sky = &frame->skies[frame->sky_model];
     const double highest_m = ground_highest_m(&frame->ground);
@@ -275,7 +275,7 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
     if (moon.is_main) {
         shading.sun_direction = moon.sight.direction;
     }
-    trl_result result = ground_draw(&frame->ground, &shading, &frame->clock);
+    trl_result result = ground_draw(&frame->ground, &shading, shown->time_s, &frame->clock);
     const struct sky_view view = {.camera = camera,
                                   .highest_m = highest_m,
                                   .surface = ground_surface(&frame->ground),
@@ -296,7 +296,7 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
     }
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "stars");
-        result = space_draw(&frame->space, &view, sidereal_rad);
+        result = space_draw(&frame->space, &view, shown->sidereal_rad);
     }
     if (result == TRL_OK) {
         const struct edges_source source = {.view = &view,
@@ -346,7 +346,7 @@ trl_result frame_draw(struct frame *frame, const struct frame_request *request)
         camera_resolve(view, &place, (double)request->width / request->height);
     frame->is_drawn = false;
     frame_clock_start(&frame->clock);
-    result = draw_radiance(frame, &camera, view->sidereal_rad);
+    result = draw_radiance(frame, &camera, view);
     if (result == TRL_OK) {
         result = develop(frame, request);
     }

@@ -4,6 +4,7 @@
 
 #include "frame/daylight.h"
 #include "frame/invention.h"
+#include "ocean/sea.h"
 #include "shared/blend.glsl"
 #include "terrain/projective.h"
 
@@ -111,6 +112,21 @@ struct mesher_stats ground_mesher_stats(const struct ground *ground)
     return mesher ? mesher->stats : (struct mesher_stats){0};
 }
 
+static trl_result make_waves(struct ground *ground, const struct trl_scene *scene)
+{
+    if (!scene->ocean.is_there) {
+        return TRL_OK;
+    }
+    const struct waves_desc desc = {ground->gpu->ctx, &scene->ocean, scene->medium.ground_radius_m,
+                                    sea_mean_square_slope(&scene->ocean.waves)};
+    trl_result result = waves_init(&desc, &ground->waves);
+    if (result == TRL_OK) {
+        result = facets_init(ground->gpu, &ground->waves, &ground->facets);
+    }
+    ground->has_waves = result == TRL_OK;
+    return result;
+}
+
 static trl_result make_passes(struct ground *ground, double sun_angular_radius_rad)
 {
     trl_result result = ground_set_mesher(ground, ground->mesher);
@@ -149,6 +165,9 @@ trl_result ground_init(struct gpu *gpu, const struct ground_desc *desc, struct g
     if (result == TRL_OK && !out->is_bare) {
         result = make_passes(out, scene->medium.star_angular_radius_rad);
     }
+    if (result == TRL_OK && !out->is_bare) {
+        result = make_waves(out, scene);
+    }
     if (result != TRL_OK) {
         ground_finish(out);
     }
@@ -170,6 +189,8 @@ static void finish_buffers(struct ground *ground)
 void ground_finish(struct ground *ground)
 {
     finish_buffers(ground);
+    facets_finish(&ground->facets);
+    waves_finish(&ground->waves);
     terrain_compose_finish(&ground->compose);
     terrain_shadow_finish(&ground->shadow);
     for (int i = 0; i < MESHER_MAX_KINDS; i++) {
@@ -233,13 +254,16 @@ trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height)
     if (result == TRL_OK) {
         result = make_targets(ground);
     }
+    if (result == TRL_OK && ground->has_waves) {
+        result = facets_resize(&ground->facets, width, height);
+    }
     if (result != TRL_OK) {
         finish_buffers(ground);
     }
     return result;
 }
 
-trl_result ground_draw(struct ground *ground, const struct camera *camera,
+trl_result ground_draw(struct ground *ground, const struct camera *camera, double time_s,
                        struct frame_clock *clock)
 {
     if (ground->is_bare) {
@@ -268,6 +292,11 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
                                                       ground->region_m};
         result = terrain_compose_draw(&ground->compose, &inputs, &ground->surface_target);
     }
+    if (result == TRL_OK && ground->has_waves) {
+        frame_clock_part(clock, "waves");
+        const struct facets_inputs inputs = {camera, time_s, &ground->position, &ground->albedo};
+        result = facets_draw(&ground->facets, &inputs);
+    }
     return result;
 }
 
@@ -281,6 +310,7 @@ struct sky_surface ground_surface(const struct ground *ground)
                                 .normal = &ground->normal,
                                 .lights = &ground->lights,
                                 .region = &ground->region,
+                                .facets = ground->has_waves ? &ground->facets.texture : NULL,
                                 .lights_cd_m2 = ground->lights_cd_m2};
 }
 

@@ -15,6 +15,7 @@
 #include "base/camera.h"
 #include "frame/clock.h"
 #include "gpu/target.h"
+#include "ocean/facets.h"
 #include "scene/scene.h"
 #include "sky/sky.h"
 #include "terrain/compose.h"
@@ -33,6 +34,9 @@ struct ground {
                                               // bare, as the two passes below
     struct terrain_shadow shadow;
     struct terrain_compose compose;
+    struct waves waves;
+    struct facets facets;
+    bool has_waves;
     struct gpu_texture position, depth, albedo, normal, lights, region;
     struct gpu_target mesh_target, surface_target;
 };
@@ -77,8 +81,9 @@ struct mesher_stats ground_mesher_stats(const struct ground *ground);
 // Makes the buffers anew. After a failure there are none, and it must be called again.
 TRL_MUST_USE trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height);
 
+// `time_s`: of the waves.
 TRL_MUST_USE trl_result ground_draw(struct ground *ground, const struct camera *camera,
-                                    struct frame_clock *clock);
+                                    double time_s, struct frame_clock *clock);
 
 // What the sky pass lights: all NULL for a bare sphere.
 struct sky_surface ground_surface(const struct ground *ground);

@@ -7,6 +7,7 @@
 static const struct scene_range latitudes_deg = {.min = -90, .max = 90};
 static const struct scene_range turns_deg = {.min = -360, .max = 360};
 static const struct scene_range distances = {.min = -1e6, .max = 1e11};
+static const struct scene_range times_s = {.min = -1e12, .max = 1e12};
 static const struct scene_range heights = {.min = 0, .max = 1e11};
 
 static trl_result read_angle(const struct scene_node *object, const struct scene_angle *angle)
@@ -130,8 +131,9 @@ static trl_result read_view(const struct scene_node *node, const struct trl_scen
                             trl_view *out)
 {
     *out = trl_view_default();
-    trl_result result = scene_node_check_keys(
-        node, (const char *const[]){"camera", "sun", "sidereal_deg", "bodies", "exposure", NULL});
+    trl_result result =
+        scene_node_check_keys(node, (const char *const[]){"camera", "sun", "sidereal_deg", "time_s",
+                                                          "bodies", "exposure", NULL});
     const struct scene_node camera = scene_node_member(node, "camera");
     const struct scene_node sun = scene_node_member(node, "sun");
     const struct scene_node bodies = scene_node_member(node, "bodies");
@@ -145,6 +147,10 @@ static trl_result read_view(const struct scene_node *node, const struct trl_scen
     if (result == TRL_OK) {
         const struct scene_angle sidereal = {"sidereal_deg", &turns_deg, &out->sidereal_rad, true};
         result = scene_read_angles(node, &sidereal, 1);
+    }
+    if (result == TRL_OK) {
+        const struct scene_node time = scene_node_member(node, "time_s");
+        result = scene_node_number_or(&time, &times_s, &out->time_s);
     }
     if (result == TRL_OK && bodies.value) {
         result = scene_read_body_places(&bodies, scene, out);

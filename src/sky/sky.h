@@ -42,7 +42,8 @@ struct sky_moon {
 struct sky_surface {
     const struct gpu_texture *position; // NULL: bare sphere, and the others too
     const struct gpu_texture *albedo, *normal, *lights, *region; // see frame/ground.h
-    double lights_cd_m2;                                         // luminance of white lights
+    const struct gpu_texture *facets; // of open water, as of ocean/facets.h; NULL: no ocean
+    double lights_cd_m2;              // luminance of white lights
 };
 
 // How the model single draws a bare sphere.

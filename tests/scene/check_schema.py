@@ -175,6 +175,7 @@ CHANGES = [
     ("stars", {"background_cd_m2": -1}, False), ("stars", {"pole": {"declination_deg": 90}}, False),
     ("stars", {"pole": {"right_ascension_deg": 317.7, "declination_deg": 52.9}}, True),
     ("stars", {"color": 1}, False), ("views one sidereal_deg", 90, True),
+    ("views one time_s", 86400.5, True), ("views one time_s", "noon", False), ("views one time_s", 1e13, False),
     ("views one sidereal_deg", 361, False), ("bodies", {}, False),
     ("bodies 0 name", REMOVED, False), ("bodies 0 name", "comment", False),
     ("bodies 0 name", "x" * 65, False), ("bodies 0 radius_m", 0, False),

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// What a pixel of open water shows of the waves: the mean normal of those that it resolves (planet
+// axes, unit), and the mean square slope of all that it does not, along and across together.
+#include "ocean/waves.glsl"
+
+uniform sampler2D u_position; // relative to the camera, m
+uniform sampler2D u_albedo;   // a: part that is open water
+uniform float u_pixel_rad;
+
+layout(location = 0) out vec4 o_facet;
+
+void main()
+{
+    vec4 position = texelFetch(u_position, ivec2(gl_FragCoord.xy), 0);
+    if (texelFetch(u_albedo, ivec2(gl_FragCoord.xy), 0).a == 0.0) {
+        o_facet = vec4(0.0);
+        return;
+    }
+    GerstnerPlace p = waves_place(position.xyz);
+    vec3 up = vec3(p.vx, p.vy, p.vz);
+    vec3 way = u_wave_local_from_planet * position.xyz;
+    float side = length(way) * u_pixel_rad;
+    float mu = clamp(-dot(up, way) / max(length(way), 1.0e-6), 1.0e-3, 1.0);
+    // A pixel on the ground: its own width across, longer by 1 / mu along the view.
+    vec2 flat_way = way.xy / max(length(way.xy), 1.0e-6);
+    vec2 along = flat_way * (side / mu);
+    GerstnerSum sum = waves_sum(p, along, vec2(-flat_way.y, flat_way.x) * side, side);
+    GerstnerNormal n = gerstner_normal(sum);
+    GerstnerNormal turned = gerstner_to_anchor(p, n.x, n.y, n.z);
+    // A row times a matrix: the transpose turns local axes back into the planet's.
+    vec3 normal = normalize(vec3(turned.x, turned.y, turned.z)) * u_wave_local_from_planet;
+    o_facet = vec4(normal, sum.lost_square);
+}

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "ocean/facets.h"
+
+trl_result facets_init(struct gpu *gpu, const struct waves *waves, struct facets *out)
+{
+    *out = (struct facets){.gpu = gpu};
+    const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+                                          .fragment = "ocean/facets.frag"};
+    trl_result result = wave_texture_init(gpu, waves, &out->waves);
+    if (result == TRL_OK) {
+        result = gpu_program_init(gpu, &desc, &out->program);
+    }
+    if (result != TRL_OK) {
+        facets_finish(out);
+    }
+    return result;
+}
+
+static void finish_target(struct facets *facets)
+{
+    gpu_target_finish(&facets->target);
+    gpu_texture_finish(&facets->texture);
+}
+
+void facets_finish(struct facets *facets)
+{
+    finish_target(facets);
+    gpu_program_finish(&facets->program);
+    wave_texture_finish(&facets->waves);
+    *facets = (struct facets){0};
+}
+
+trl_result facets_resize(struct facets *facets, uint32_t width, uint32_t height)
+{
+    finish_target(facets);
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "facets";
+    desc.format = GPU_FORMAT_RGBA16F;
+    desc.filter = GPU_FILTER_NEAREST;
+    desc.width = width;
+    desc.height = height;
+    trl_result result = gpu_texture_init(facets->gpu, &desc, &facets->texture);
+    const struct gpu_target_desc target = {
+        .label = "facets", .color_count = 1, .colors[0].texture = &facets->texture};
+    if (result == TRL_OK) {
+        result = gpu_target_init(facets->gpu, &target, &facets->target);
+    }
+    if (result != TRL_OK) {
+        finish_target(facets);
+    }
+    return result;
+}
+
+trl_result facets_draw(struct facets *facets, const struct facets_inputs *in)
+{
+    struct gpu_program *program = &facets->program;
+    const double pixel_rad = 2 * in->camera->tan_half_fov_y / facets->texture.height;
+    trl_result result = wave_texture_update(&facets->waves, in->camera->position_m, in->time_s);
+    if (result != TRL_OK) {
+        return result;
+    }
+    wave_texture_bind(&facets->waves, program);
+    gpu_program_set_texture(program, "u_position", in->position);
+    gpu_program_set_texture(program, "u_albedo", in->albedo);
+    gpu_program_set_float(program, "u_pixel_rad", (float)pixel_rad);
+    const struct gpu_pass pass = {.target = &facets->target};
+    gpu_pass_begin(facets->gpu, &pass);
+    return gpu_draw_fullscreen(program, "facets of the sea");
+}
