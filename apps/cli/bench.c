@@ -44,6 +44,8 @@ static const struct bench benches[] = {
      bench_run_elek_fps, "Elek and Kmoch 2010, Section 6"},
     {"elek-rgb-vs-spectral", "colours from three wavelengths against those from sixteen",
      bench_run_elek_rgb, "Elek and Kmoch 2010, Figure 6"},
+    {"michelic-table1", "invented ground by layers of noise and size of the tessellated grid",
+     bench_run_michelic_table1, "Michelic 2019, Table 1"},
     {"pgm-fps", "frames per second of the projective mesher, by grid and screen, three views",
      bench_run_pgm_fps, "Planetary Terrain Rendering (PGM), Section 8"},
 };

@@ -282,6 +282,17 @@ TRL_API trl_mesher trl_renderer_mesher(const trl_renderer *renderer);
 TRL_API TRL_MUST_USE trl_result trl_renderer_set_projective(trl_renderer *renderer,
                                                             const trl_projective_desc *desc);
 
+/// Cells to a side of the grid of TRL_MESHER_HEMISPHERE and TRL_MESHER_TESSELLATED; the latter has
+/// patches of 8 x 8 of them.
+enum { TRL_HEMISPHERE_MIN_CELLS = 32, TRL_HEMISPHERE_MAX_CELLS = 2048, TRL_HEMISPHERE_STEP = 16 };
+
+/// Makes that grid anew with another size; 800 is what a renderer begins with. Does not go over to
+/// those meshers.
+/// @param cells  a multiple of TRL_HEMISPHERE_STEP within the limits above
+/// @return TRL_OK; TRL_ERROR_INVALID (a size that cannot be); TRL_ERROR_MEMORY; TRL_ERROR_GPU; on
+///         failure the old one stays
+TRL_API TRL_MUST_USE trl_result trl_renderer_set_hemisphere(trl_renderer *renderer, uint32_t cells);
+
 /// The error of the mesh that TRL_MESHER_QUADTREE aims at from the next frame on. Less takes more
 /// triangles, up to a budget above which the error grows.
 /// @return TRL_OK; TRL_ERROR_INVALID (out of range, see trl_renderer_desc)

@@ -338,6 +338,16 @@ trl_result trl_renderer_set_projective(trl_renderer *renderer, const trl_project
     return result == TRL_OK ? ground_set_projective(&renderer->frame.ground, desc) : result;
 }
 
+trl_result trl_renderer_set_hemisphere(trl_renderer *renderer, uint32_t cells)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(renderer->ctx, hemisphere_cells_are_good(cells)); // in range, whole steps
+    const trl_result result = gpu_make_current(renderer->frame.gpu);
+    return result == TRL_OK ? ground_set_hemisphere(&renderer->frame.ground, cells) : result;
+}
+
 trl_result trl_renderer_set_mesh_error(trl_renderer *renderer, double error_px)
 {
     if (!renderer) {

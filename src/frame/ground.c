@@ -75,9 +75,15 @@ static trl_result load_surface(struct gpu *gpu, const struct ground_desc *ground
 
 static trl_result make_mesher(const struct ground *ground, trl_mesher mesher, struct mesher **out)
 {
-    return mesher == TRL_MESHER_PROJECTIVE
-               ? projective_create(&ground->surface, &ground->projective, out)
-               : mesher_create(&ground->surface, mesher, out);
+    if (mesher == TRL_MESHER_PROJECTIVE) {
+        return projective_create(&ground->surface, &ground->projective, out);
+    }
+    if (mesher == TRL_MESHER_HEMISPHERE || mesher == TRL_MESHER_TESSELLATED) {
+        const struct hemisphere_desc desc = {ground->hemisphere_cells,
+                                             mesher == TRL_MESHER_TESSELLATED};
+        return hemisphere_create_of(&ground->surface, &desc, out);
+    }
+    return mesher_create(&ground->surface, mesher, out);
 }
 
 trl_result ground_set_mesher(struct ground *ground, trl_mesher mesher)
@@ -98,6 +104,28 @@ trl_result ground_set_projective(struct ground *ground, const trl_projective_des
         *slot = made;
         ground->projective = *desc;
     }
+    return result;
+}
+
+trl_result ground_set_hemisphere(struct ground *ground, uint32_t cells)
+{
+    static const trl_mesher kinds[2] = {TRL_MESHER_HEMISPHERE, TRL_MESHER_TESSELLATED};
+    const uint32_t old_cells = ground->hemisphere_cells;
+    struct mesher *made[2] = {NULL, NULL};
+    trl_result result = TRL_OK;
+    ground->hemisphere_cells = cells;
+    for (int i = 0; i < 2 && result == TRL_OK; i++) {
+        result = ground->meshers[kinds[i]] ? make_mesher(ground, kinds[i], &made[i]) : TRL_OK;
+    }
+    for (int i = 0; i < 2; i++) {
+        if (result == TRL_OK && made[i]) {
+            mesher_destroy(&ground->meshers[kinds[i]]);
+            ground->meshers[kinds[i]] = made[i];
+        } else {
+            mesher_destroy(&made[i]);
+        }
+    }
+    ground->hemisphere_cells = result == TRL_OK ? cells : old_cells;
     return result;
 }
 
@@ -157,6 +185,7 @@ trl_result ground_init(struct gpu *gpu, const struct ground_desc *desc, struct g
     *out = (struct ground){.gpu = gpu,
                            .mesher = desc->meshing.mesher,
                            .projective = desc->meshing.projective,
+                           .hemisphere_cells = HEMISPHERE_CELLS,
                            .mesh_error_px = desc->meshing.error_px,
                            .lights_cd_m2 = ground_find_lights_cd_m2(scene),
                            .region_m = 2 * medium_scattering_height(&scene->medium)};

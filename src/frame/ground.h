@@ -29,6 +29,7 @@ struct ground {
     struct surface surface;
     trl_mesher mesher;                        // that frames are drawn with
     trl_projective_desc projective;           // options of that mesher
+    uint32_t hemisphere_cells;                // of those two
     double mesh_error_px;                     // wanted of meshers that follow one
     struct mesher *meshers[MESHER_MAX_KINDS]; // by trl_mesher; made when first asked for; none when
                                               // bare, as the two passes below
@@ -71,6 +72,10 @@ TRL_MUST_USE trl_result ground_set_mesher(struct ground *ground, trl_mesher mesh
 // old one.
 TRL_MUST_USE trl_result ground_set_projective(struct ground *ground,
                                               const trl_projective_desc *desc);
+
+// Makes the hemisphere and its tessellated form with another grid, now where they are there already.
+// A failure leaves the old ones.
+TRL_MUST_USE trl_result ground_set_hemisphere(struct ground *ground, uint32_t cells);
 
 // What meshers aim at from now on.
 void ground_set_mesh_error(struct ground *ground, double error_px);

@@ -18,14 +18,9 @@
 
 #include <math.h>
 
-// CELLS to a side of the grid in chunks of CHUNK_CELLS: a sixth of it, as much as a view of 60
-// degrees along the ground sees, is 210 thousand triangles.
-enum {
-    CELLS = 800,
-    CHUNK_CELLS = 16,
-    CHUNK_ROW = CELLS / CHUNK_CELLS,
-    CHUNKS = CHUNK_ROW * CHUNK_ROW
-};
+// HEMISPHERE_CELLS to a side of the grid in chunks of CHUNK_CELLS: a sixth of it, as much as a view
+// of 60 degrees along the ground sees, is 210 thousand triangles.
+enum { CHUNK_CELLS = TRL_HEMISPHERE_STEP };
 // The higher the camera, the more of the grid is in view at once, and the smaller it is there:
 // above these parts of the radius every second and every fourth vertex is enough.
 enum { MESHES = 3 };
@@ -59,7 +54,10 @@ struct hemisphere {
     double base_m;  // altitude from which positions count, above the anchor; a float
     uint32_t level; // of `meshes`
     struct camera camera;
-    struct chunk chunks[CHUNKS];
+    uint32_t cells;       // to a side of the grid
+    uint32_t chunk_row;   // chunks to a side
+    uint32_t chunk_count; // all of them
+    struct chunk *chunks; // owned
     struct gpu_texture positions;
     struct gpu_target target;
     struct height_programs grid_programs;
@@ -69,15 +67,19 @@ struct hemisphere {
     struct gpu_mesh patches; // only then, and no `meshes`
 };
 
-static void put_cell(uint32_t *indices, uint32_t x, uint32_t y, uint32_t step)
+// The vertices of a cell's two triangles: of the grid of `cells`, from (x, y), `step` wide.
+struct cell {
+    uint32_t cells, x, y, step;
+};
+static void put_cell(uint32_t *indices, const struct cell *cell)
 {
-    const uint32_t side = CELLS + 1;
-    const uint32_t a = y * side + x;
-    const uint32_t b = a + step;
-    const uint32_t d = a + step * side;
-    const uint32_t c = d + step;
+    const uint32_t side = cell->cells + 1, half = cell->cells / 2;
+    const uint32_t a = cell->y * side + cell->x;
+    const uint32_t b = a + cell->step;
+    const uint32_t d = a + cell->step * side;
+    const uint32_t c = d + cell->step;
     // The diagonal runs away from the middle, so that all quadrants look alike.
-    const bool is_rising = (x < CELLS / 2) == (y < CELLS / 2);
+    const bool is_rising = (cell->x < half) == (cell->y < half);
     const uint32_t rising[6] = {a, b, c, a, c, d};
     const uint32_t falling[6] = {a, b, d, b, c, d};
     for (int i = 0; i < 6; i++) {
@@ -93,24 +95,24 @@ static uint32_t chunk_indices(uint32_t step)
 // Indices, chunk after chunk, of every `step`-th vertex.
 static trl_result make_mesh(struct hemisphere *h, uint32_t step, struct gpu_mesh *out)
 {
-    const uint32_t count = CHUNKS * chunk_indices(step);
+    const uint32_t count = h->chunk_count * chunk_indices(step);
     uint32_t *indices = mem_alloc(h->gpu->ctx, count, sizeof *indices);
     if (!indices) {
         return TRL_ERROR_MEMORY;
     }
     uint32_t *to = indices;
-    for (uint32_t chunk = 0; chunk < CHUNKS; chunk++) {
-        const uint32_t x0 = chunk % CHUNK_ROW * CHUNK_CELLS;
-        const uint32_t y0 = chunk / CHUNK_ROW * CHUNK_CELLS;
+    for (uint32_t chunk = 0; chunk < h->chunk_count; chunk++) {
+        const uint32_t x0 = chunk % h->chunk_row * CHUNK_CELLS;
+        const uint32_t y0 = chunk / h->chunk_row * CHUNK_CELLS;
         for (uint32_t y = y0; y < y0 + CHUNK_CELLS; y += step) {
             for (uint32_t x = x0; x < x0 + CHUNK_CELLS; x += step, to += 6) {
-                put_cell(to, x, y, step);
+                put_cell(to, &(struct cell){h->cells, x, y, step});
             }
         }
     }
     const struct gpu_mesh_desc desc = {.label = "hemisphere",
                                        .primitive = GPU_PRIMITIVE_TRIANGLES,
-                                       .vertex_count = (CELLS + 1) * (CELLS + 1),
+                                       .vertex_count = (h->cells + 1) * (h->cells + 1),
                                        .index_count = count,
                                        .indices = indices};
     const trl_result result = gpu_mesh_init(h->gpu, &desc, out);
@@ -120,27 +122,27 @@ static trl_result make_mesh(struct hemisphere *h, uint32_t step, struct gpu_mesh
 
 static trl_result make_patches(struct hemisphere *h)
 {
-    enum { SIDE = CELLS + 1, COUNT = CHUNKS * CHUNK_PATCHES * 4 };
-    uint32_t *indices = mem_alloc(h->gpu->ctx, COUNT, sizeof *indices);
+    const uint32_t side = h->cells + 1, patches = h->chunk_count * CHUNK_PATCHES;
+    uint32_t *indices = mem_alloc(h->gpu->ctx, (size_t)patches * 4, sizeof *indices);
     if (!indices) {
         return TRL_ERROR_MEMORY;
     }
     uint32_t *to = indices;
-    for (uint32_t i = 0; i < CHUNKS * CHUNK_PATCHES; i++, to += 4) {
+    for (uint32_t i = 0; i < patches; i++, to += 4) {
         const uint32_t chunk = i / CHUNK_PATCHES, part = i % CHUNK_PATCHES;
         const uint32_t row = CHUNK_CELLS / PATCH_CELLS;
-        const uint32_t x = chunk % CHUNK_ROW * CHUNK_CELLS + part % row * PATCH_CELLS;
-        const uint32_t y = chunk / CHUNK_ROW * CHUNK_CELLS + part / row * PATCH_CELLS;
-        to[0] = y * SIDE + x;
+        const uint32_t x = chunk % h->chunk_row * CHUNK_CELLS + part % row * PATCH_CELLS;
+        const uint32_t y = chunk / h->chunk_row * CHUNK_CELLS + part / row * PATCH_CELLS;
+        to[0] = y * side + x;
         to[1] = to[0] + PATCH_CELLS;
-        to[2] = to[1] + PATCH_CELLS * SIDE;
-        to[3] = to[0] + PATCH_CELLS * SIDE;
+        to[2] = to[1] + PATCH_CELLS * side;
+        to[3] = to[0] + PATCH_CELLS * side;
     }
     const struct gpu_mesh_desc desc = {.label = "hemisphere patches",
                                        .primitive = GPU_PRIMITIVE_PATCHES,
                                        .patch_vertices = 4,
-                                       .vertex_count = SIDE * SIDE,
-                                       .index_count = COUNT,
+                                       .vertex_count = side * side,
+                                       .index_count = patches * 4,
                                        .indices = indices};
     const trl_result result = gpu_mesh_init(h->gpu, &desc, &h->patches);
     mem_free(h->gpu->ctx, indices);
@@ -166,7 +168,7 @@ static trl_result make_target(struct hemisphere *h)
     desc.label = "hemisphere vertices";
     desc.format = GPU_FORMAT_RGBA32F;
     desc.filter = GPU_FILTER_NEAREST;
-    desc.width = desc.height = CELLS + 1;
+    desc.width = desc.height = h->cells + 1;
     trl_result result = gpu_texture_init(h->gpu, &desc, &h->positions);
     if (result == TRL_OK) {
         const struct gpu_target_desc target = {.label = "hemisphere vertices",
@@ -179,8 +181,8 @@ static trl_result make_target(struct hemisphere *h)
 
 static struct vec3 grid_direction(const struct hemisphere *h, double x, double y)
 {
-    const LocalDirection d =
-        hemisphere_direction(2 * x / CELLS - 1, 2 * y / CELLS - 1, h->rings, h->projection.lift);
+    const LocalDirection d = hemisphere_direction(2 * x / h->cells - 1, 2 * y / h->cells - 1,
+                                                  h->rings, h->projection.lift);
     return (struct vec3){d.x, d.y, d.z + 1};
 }
 
@@ -200,8 +202,8 @@ static void bound_chunk(struct chunk *c, double low_m, double high_m)
 static void place_chunk(struct hemisphere *h, uint32_t index)
 {
     enum { STEPS = 4 };
-    const double x0 = index % CHUNK_ROW * (double)CHUNK_CELLS;
-    const double y0 = index / CHUNK_ROW * (double)CHUNK_CELLS;
+    const double x0 = index % h->chunk_row * (double)CHUNK_CELLS;
+    const double y0 = index / h->chunk_row * (double)CHUNK_CELLS;
     const struct vec3 middle = grid_direction(h, x0 + CHUNK_CELLS / 2.0, y0 + CHUNK_CELLS / 2.0);
     double chord = 0;
     for (int i = 0; i < (STEPS + 1) * (STEPS + 1); i++) {
@@ -220,7 +222,7 @@ static void place_chunk(struct hemisphere *h, uint32_t index)
 
 static trl_result draw_grid(struct hemisphere *h)
 {
-    const float grid[4] = {CELLS, (float)h->projection.lift, (float)h->base_m, 0};
+    const float grid[4] = {(float)h->cells, (float)h->projection.lift, (float)h->base_m, 0};
     const float rings[2] = {(float)h->rings.inner, (float)h->rings.power};
     float planet_from_local[9];
     anchor_planet_from_local(&h->projection.anchor, planet_from_local);
@@ -264,7 +266,7 @@ static trl_result update(struct mesher *base, const struct camera *camera)
            h->projection.height_m > COARSER_ABOVE[h->level + 1] * h->surface->radius_m) {
         h->level++;
     }
-    for (uint32_t i = 0; i < CHUNKS; i++) {
+    for (uint32_t i = 0; i < h->chunk_count; i++) {
         place_chunk(h, i);
     }
     h->base.stats.projections++;
@@ -357,9 +359,9 @@ static trl_result draw_range(struct hemisphere *h, const struct depth_range *ran
 {
     depth_range_bind(range, &h->mesh_program);
     trl_result result = TRL_OK;
-    for (uint32_t i = 0; i < CHUNKS && result == TRL_OK; i++) {
+    for (uint32_t i = 0; i < h->chunk_count && result == TRL_OK; i++) {
         const uint32_t first = i;
-        while (i < CHUNKS && is_visible(h, i, range)) {
+        while (i < h->chunk_count && is_visible(h, i, range)) {
             i++;
         }
         if (i > first) {
@@ -396,10 +398,43 @@ static void destroy(struct mesher *base)
     gpu_program_finish(&h->mesh_program);
     gpu_target_finish(&h->target);
     gpu_texture_finish(&h->positions);
+    mem_free(h->gpu->ctx, h->chunks);
     mem_free(h->gpu->ctx, h);
 }
 
-static trl_result create(const struct surface *surface, bool is_tessellated, struct mesher **out)
+static trl_result make_parts(struct hemisphere *h)
+{
+    h->chunks = mem_alloc(h->gpu->ctx, h->chunk_count, sizeof *h->chunks);
+    trl_result result = h->chunks ? make_target(h) : TRL_ERROR_MEMORY;
+    result = result == TRL_OK ? make_programs(h) : result;
+    if (h->is_tessellated && result == TRL_OK) {
+        result = make_patches(h);
+    }
+    for (uint32_t i = 0; i < MESHES && result == TRL_OK && !h->is_tessellated; i++) {
+        result = make_mesh(h, 1u << i, &h->meshes[i]);
+    }
+    return result;
+}
+
+static uint64_t count_bytes(const struct hemisphere *h)
+{
+    const uint64_t vertices = (uint64_t)(h->cells + 1) * (h->cells + 1);
+    uint64_t bytes = sizeof *h + h->chunk_count * sizeof *h->chunks + sizeof(float[4]) * vertices;
+    bytes += sizeof(uint32_t) * (uint64_t)h->patches.index_count;
+    for (uint32_t i = 0; i < MESHES; i++) {
+        bytes += sizeof(uint32_t) * (uint64_t)h->meshes[i].index_count;
+    }
+    return bytes;
+}
+
+bool hemisphere_cells_are_good(uint32_t cells)
+{
+    return cells >= TRL_HEMISPHERE_MIN_CELLS && cells <= TRL_HEMISPHERE_MAX_CELLS &&
+           cells % TRL_HEMISPHERE_STEP == 0;
+}
+
+trl_result hemisphere_create_of(const struct surface *surface, const struct hemisphere_desc *desc,
+                                struct mesher **out)
 {
     static const struct mesher_ops OPS = {update, draw, destroy};
     struct hemisphere *h = mem_alloc(surface->gpu->ctx, 1, sizeof *h);
@@ -410,34 +445,26 @@ static trl_result create(const struct surface *surface, bool is_tessellated, str
     h->base.ops = &OPS;
     h->gpu = surface->gpu;
     h->surface = surface;
-    h->is_tessellated = is_tessellated;
-    trl_result result = make_target(h);
-    result = result == TRL_OK ? make_programs(h) : result;
-    if (is_tessellated && result == TRL_OK) {
-        result = make_patches(h);
-    }
-    for (uint32_t i = 0; i < MESHES && result == TRL_OK && !is_tessellated; i++) {
-        result = make_mesh(h, 1u << i, &h->meshes[i]);
-    }
+    h->is_tessellated = desc->is_tessellated;
+    h->cells = desc->cells;
+    h->chunk_row = h->cells / CHUNK_CELLS;
+    h->chunk_count = h->chunk_row * h->chunk_row;
+    const trl_result result = make_parts(h);
     if (result != TRL_OK) {
         destroy(&h->base);
         return result;
     }
-    h->base.stats.bytes = sizeof *h + sizeof(float[4]) * (CELLS + 1) * (CELLS + 1);
-    h->base.stats.bytes += sizeof(uint32_t) * (uint64_t)h->patches.index_count;
-    for (uint32_t i = 0; i < MESHES; i++) {
-        h->base.stats.bytes += sizeof(uint32_t) * (uint64_t)h->meshes[i].index_count;
-    }
+    h->base.stats.bytes = count_bytes(h);
     *out = &h->base;
     return TRL_OK;
 }
 
 trl_result hemisphere_create(const struct surface *surface, struct mesher **out)
 {
-    return create(surface, false, out);
+    return hemisphere_create_of(surface, &(struct hemisphere_desc){HEMISPHERE_CELLS, false}, out);
 }
 
 trl_result hemisphere_create_tessellated(const struct surface *surface, struct mesher **out)
 {
-    return create(surface, true, out);
+    return hemisphere_create_of(surface, &(struct hemisphere_desc){HEMISPHERE_CELLS, true}, out);
 }

@@ -52,6 +52,18 @@ TRL_MUST_USE trl_result mesher_update(struct mesher *mesher, const struct camera
 #define MESHER_NO_SURFACE (-1e9f)
 TRL_MUST_USE trl_result mesher_draw(struct mesher *mesher, const struct gpu_target *target);
 
+// The hemisphere's grid, see trl_renderer_set_hemisphere.
+enum { HEMISPHERE_CELLS = 800 };
+bool hemisphere_cells_are_good(uint32_t cells);
+
+struct hemisphere_desc {
+    uint32_t cells; // good ones
+    bool is_tessellated;
+};
+TRL_MUST_USE trl_result hemisphere_create_of(const struct surface *surface,
+                                             const struct hemisphere_desc *desc,
+                                             struct mesher **out);
+
 // Used by the above.
 TRL_MUST_USE trl_result hemisphere_create(const struct surface *surface, struct mesher **out);
 TRL_MUST_USE trl_result hemisphere_create_tessellated(const struct surface *surface,

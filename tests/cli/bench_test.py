@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: MIT
 """terrella bench and terrella info: the form of what they print. No time is judged here."""
 
+import copy
 import json
 import unittest
 
-from process import IS_SLOW, SCENES, ProgramTest, require_gl
+from process import IS_SLOW, SCENES, THIN_SCENE, ProgramTest, require_gl
 from render_test import add_layers, make_tiff
 
 RUNS = 1 if IS_SLOW else 2
@@ -96,6 +97,31 @@ class Bench(ProgramTest):
                 self.assertGreater(rows[case, "frame"]["min"], 0.0)
                 self.assertGreater(rows[case, "step"]["min"], 0.0)
         self.expect_failure(1, [*words, self.write_scene()], ["no ground", "make data"])
+
+    @unittest.skipIf(IS_SLOW, "24 pictures of 1920 x 1080")
+    def test_layers_of_noise_by_grids(self):
+        scene = copy.deepcopy(THIN_SCENE)
+        # Mostly sky, for the pictures of this bench are large.
+        scene["views"] = {"up": {"camera": {"latitude_deg": 10, "longitude_deg": 20, "height_above_ground_m": 30000,
+                                            "heading_deg": 0, "pitch_deg": 60, "vertical_fov_deg": 40},
+                                 "sun": {"elevation_deg": 40, "azimuth_deg": 0}}}
+        words = ["bench", "michelic-table1", "--runs", "1", "--scene"]
+        self.expect_failure(1, [*words, self.write_scene(scene)], ["no ground of noise"])
+        scene["surface"] = {"noise": {"seed": 1}}
+        path = self.write_scene(scene)
+        self.expect_failure(1, [*words, path, "--mesher", "quadtree"], ["michelic-table1", "tessellated"])
+        bench = json.loads(self.expect_success(*words, path, "--json").stdout)
+        rows = {(row["case"], row["metric"]): row for row in bench["rows"]}
+        self.assertEqual(len(rows), 12 * 5)
+        paper = {"continents": [0.8, 0.5, 0.9], "1 layer": [1.0, 0.7, 1.3],
+                 "5 layers": [1.3, 1.3, 1.9], "10 layers": [1.7, 2.6, 2.6]}
+        for layers, printed in paper.items():
+            for side, ms in zip([50, 100, 200], printed):
+                case = f"{layers}, {side} x {side}"
+                self.assertEqual(rows[case, "ground"]["paper"], ms)
+                parts = [rows[case, f"its {part}"]["min"] for part in ["vertices", "mesh", "colours and normals"]]
+                self.assertGreater(parts[0], 0)
+                self.assertAlmostEqual(rows[case, "ground"]["min"], sum(parts), delta=0.01 * sum(parts))
 
     def test_planets_with_air_and_without(self):
         (self.data / "h.tif").write_bytes(make_tiff(256, 128))

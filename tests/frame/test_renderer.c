@@ -141,6 +141,17 @@ static void projective_grids_that_cannot_be_are_refused(void **state)
     assert_int_equal(trl_renderer_set_projective(s->renderer, &good), TRL_OK);
 }
 
+static void hemispheres_that_cannot_be_are_refused(void **state)
+{
+    struct setup *s = *state;
+    const uint32_t bad[] = {0, 16, 40, 808, TRL_HEMISPHERE_MAX_CELLS + TRL_HEMISPHERE_STEP};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        expect_invalid(s, trl_renderer_set_hemisphere(s->renderer, bad[i]));
+    }
+    assert_int_equal(trl_renderer_set_hemisphere(s->renderer, TRL_HEMISPHERE_MAX_CELLS), TRL_OK);
+    assert_int_equal(trl_renderer_set_hemisphere(s->renderer, 800), TRL_OK);
+}
+
 static void mesh_errors_that_cannot_be_are_refused(void **state)
 {
     struct setup *s = *state;
@@ -437,6 +448,7 @@ int main(void)
         cmocka_unit_test(wrong_descriptions_are_refused),
         cmocka_unit_test(meshers_have_names_and_others_are_refused),
         cmocka_unit_test(projective_grids_that_cannot_be_are_refused),
+        cmocka_unit_test(hemispheres_that_cannot_be_are_refused),
         cmocka_unit_test(mesh_errors_that_cannot_be_are_refused),
         cmocka_unit_test(wrong_sizes_are_refused),
         cmocka_unit_test(views_with_wrong_numbers_are_refused),

@@ -103,6 +103,33 @@ static void test_altitudes_are_those_of_the_cpu(void **state)
     destroy_planet(&p);
 }
 
+// Another grid is another mesh of the same ground: a quarter of the vertices, cells twice as wide, so
+// four times the sag; 1 m of the test above is generous by more than that.
+static void test_a_grid_of_another_size_is_the_same_ground(void **state)
+{
+    struct planet p;
+    make_planet(*state, &p);
+    const uint64_t bytes = p.mesher->stats.bytes;
+    mesher_destroy(&p.mesher);
+    const struct hemisphere_desc desc = {HEMISPHERE_CELLS / 2, false};
+    assert_int_equal(hemisphere_create_of(&p.surface, &desc, &p.mesher), TRL_OK);
+    assert_true(p.mesher->stats.bytes < bytes / 3);
+    struct camera_place place = PLACES[PLACE_COUNT - 1];
+    place.pitch = -90;
+    place.fov = 80;
+    const struct camera camera = place_camera(&p, place, 1500);
+    fixture_picture_draw(&p.picture, p.mesher, &camera);
+    for (int k = 0; k < PICTURE_SIDE * PICTURE_SIDE; k += 37) {
+        const float *pixel = p.picture.pixels + 4 * k;
+        assert_true(pixel[3] > -1e8f);
+        const struct vec3 at = {camera.position_m.x + (double)pixel[0],
+                                camera.position_m.y + (double)pixel[1],
+                                camera.position_m.z + (double)pixel[2]};
+        assert_close((double)pixel[3], surface_altitude(&p.surface, at), 4.0);
+    }
+    destroy_planet(&p);
+}
+
 // First crossing of the ground by a ray, by steps far smaller than its hills, then halving.
 static double cast_ray(const struct planet *p, const struct camera *camera, struct vec3 ray)
 {
@@ -267,6 +294,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_altitudes_are_those_of_the_cpu),
+        cmocka_unit_test(test_a_grid_of_another_size_is_the_same_ground),
         cmocka_unit_test(test_pixels_agree_with_a_ray_caster),
         cmocka_unit_test(test_there_are_no_holes),
         cmocka_unit_test(test_small_motion_moves_no_vertex),
