@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// terrella render: one picture of a scene.
+// terrella render: one picture of a scene, or those of a flight.
 #include "app.h"
 #include "commands.h"
 #include "compare.h"
+#include "flight.h"
 #include "output.h"
 #include "render_reference.h"
 #include "shrink.h"
@@ -27,6 +28,7 @@ struct render_arguments {
     const char *compare; // models between commas; NULL: one picture
     struct compare_models models;
     struct traced_arguments traced;
+    struct flight_arguments flight;
     bool lists_views;
     bool shows_timings;
     bool is_quiet;
@@ -45,7 +47,9 @@ static const char examples[] =
     "      --sun-azimuth 90 -o orbit.exr\n"
     "  terrella render scenes/earth.json --view limb --compare spectral,single\n"
     "  terrella render scenes/earth.json --view orbit --size 320x180 \\\n"
-    "      --reference --paths 256 -o traced.exr --error error.exr\n";
+    "      --reference --paths 256 -o traced.exr --error error.exr\n"
+    "  terrella render scenes/mars.json --view gale-from-above --to gale-inset \\\n"
+    "      --seconds 20 -o gale.mp4\n";
 
 // In the order of trl_spectrum.
 static const char *const spectrum_words[] = {"full", "rgb", NULL};
@@ -58,7 +62,7 @@ static void make_options(struct render_arguments *out, struct option options[])
          .kind = OPTION_TEXT,
          .target.text = &out->output,
          .metavar = "FILE",
-         .help = "Where to write; .png or .exr. Default: terrella.png."},
+         .help = "Where to write; .png or .exr. Default: terrella.png. With --to, see there."},
         {.name = "size",
          .kind = OPTION_SIZE,
          .target.size = &out->size,
@@ -103,13 +107,14 @@ static void make_options(struct render_arguments *out, struct option options[])
     };
     memcpy(options, drawn, sizeof drawn);
     traced_make_options(&out->traced, options + DRAWN_OPTIONS);
+    flight_make_options(&out->flight, options + DRAWN_OPTIONS + TRACED_OPTIONS);
 }
 
 static enum options_outcome read_arguments(int argc, char **argv, struct render_arguments *out)
 {
     *out = (struct render_arguments){
         .output = default_output, .samples = {.value = 1}, .view = view_choice_default()};
-    struct option picture[DRAWN_OPTIONS + TRACED_OPTIONS];
+    struct option picture[DRAWN_OPTIONS + TRACED_OPTIONS + FLIGHT_OPTIONS];
     make_options(out, picture);
     const struct view_command command = {
         .name = "render",
@@ -236,8 +241,8 @@ static trl_result write_picture(struct app *app, trl_renderer *renderer,
     return result;
 }
 
-static trl_result draw_picture(struct app *app, const trl_scene *scene, const trl_view *view,
-                               const struct render_arguments *arguments, enum picture_format format)
+static trl_result make_renderer(struct app *app, const trl_scene *scene,
+                                const struct render_arguments *arguments, trl_renderer **out)
 {
     trl_renderer_desc desc = trl_renderer_desc_default();
     desc.scene = scene;
@@ -251,8 +256,14 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     desc.spectrum = (trl_spectrum)arguments->spectrum;
     desc.max_orders = traced_max_orders(&arguments->traced);
     desc.measures_time = arguments->shows_timings;
+    return trl_renderer_create(app->ctx, &desc, out);
+}
+
+static trl_result draw_picture(struct app *app, const trl_scene *scene, const trl_view *view,
+                               const struct render_arguments *arguments, enum picture_format format)
+{
     trl_renderer *renderer = NULL;
-    trl_result result = trl_renderer_create(app->ctx, &desc, &renderer);
+    trl_result result = make_renderer(app, scene, arguments, &renderer);
     // The driver compiles in the first frame: the times that are worth telling are a later one's.
     const int frames = arguments->shows_timings ? 2 : 1;
     const uint32_t samples = sample_count(arguments);
@@ -274,6 +285,43 @@ static trl_result draw_picture(struct app *app, const trl_scene *scene, const tr
     }
     trl_renderer_destroy(&renderer);
     return result;
+}
+
+static enum exit_status draw_flight(struct app *app, const trl_scene *scene,
+                                    const struct render_arguments *arguments)
+{
+    const double fps = flight_fps(&arguments->flight);
+    struct film_desc desc = {.path = arguments->output, .size = arguments->size, .fps = fps};
+    trl_renderer *renderer = NULL;
+    struct film film = {.pipe = -1};
+    enum exit_status status = film_choose(desc.path, &desc.kind);
+    if (status == EXIT_OK) {
+        status = film_begin(app->ctx, &desc, &film);
+    }
+    if (status == EXIT_OK) {
+        status = report_result(make_renderer(app, scene, arguments, &renderer));
+    }
+    if (status == EXIT_OK) {
+        const struct flight_desc flight = {.app = app,
+                                           .scene = scene,
+                                           .renderer = renderer,
+                                           .arguments = &arguments->flight,
+                                           .choice = &arguments->view,
+                                           .film = &film,
+                                           .samples = sample_count(arguments)};
+        status = flight_draw(&flight);
+    }
+    if (status == EXIT_OK) {
+        status = film_commit(&film);
+    }
+    film_abort(&film);
+    trl_renderer_destroy(&renderer);
+    if (status == EXIT_OK && !arguments->is_quiet) {
+        printf("wrote %s: %u frames of %ux%u, %g per second, %.1f s\n", arguments->output,
+               flight_frame_count(&arguments->flight), desc.size.width, desc.size.height, fps,
+               progress_clock_s() - app->progress.started_s);
+    }
+    return status;
 }
 
 // The sheet of several models.
@@ -336,6 +384,22 @@ static enum exit_status render_scene(struct app *app, const trl_scene *scene,
     return status;
 }
 
+// Of a flight, or of one picture.
+static enum exit_status check_output(const struct render_arguments *arguments)
+{
+    if (!arguments->flight.to) {
+        enum picture_format format;
+        return choose_format(arguments->output, &format);
+    }
+    if (arguments->compare || arguments->traced.is_wanted || arguments->shows_timings) {
+        return report_error(EXIT_USAGE, "render: --to goes with none of --compare, --reference and "
+                                        "--timings");
+    }
+    enum film_kind kind;
+    const enum exit_status status = film_choose(arguments->output, &kind);
+    return status == EXIT_OK ? film_check_size(kind, arguments->size) : status;
+}
+
 static enum exit_status check_arguments(const struct render_arguments *arguments)
 {
     const bool is_drawn =
@@ -346,6 +410,8 @@ static enum exit_status check_arguments(const struct render_arguments *arguments
                                         "--samples, --timings, --sky-model or --mesher");
     }
     enum exit_status status = mesher_option_check(&arguments->view.mesher, "render");
+    status = status == EXIT_OK ? flight_check(&arguments->flight) : status;
+    status = status == EXIT_OK ? check_output(arguments) : status;
     status = status == EXIT_OK ? rayleigh_choice_check(&arguments->view.rayleigh) : status;
     return status == EXIT_OK ? traced_check(&arguments->traced) : status;
 }
@@ -357,9 +423,7 @@ enum exit_status command_render(int argc, char **argv)
     if (outcome != OPTIONS_READ) {
         return outcome == OPTIONS_HELP ? EXIT_OK : EXIT_USAGE;
     }
-    enum picture_format format = PICTURE_PNG;
-    if (choose_format(arguments.output, &format) != EXIT_OK ||
-        complete_arguments(&arguments) != EXIT_OK || check_arguments(&arguments) != EXIT_OK) {
+    if (complete_arguments(&arguments) != EXIT_OK || check_arguments(&arguments) != EXIT_OK) {
         return EXIT_USAGE;
     }
     struct app app;
@@ -371,6 +435,8 @@ enum exit_status command_render(int argc, char **argv)
     }
     if (status == EXIT_OK && arguments.lists_views) {
         print_views(scene);
+    } else if (status == EXIT_OK && arguments.flight.to) {
+        status = draw_flight(&app, scene, &arguments);
     } else if (status == EXIT_OK) {
         status = render_scene(&app, scene, &arguments);
     }

@@ -91,6 +91,10 @@ static void fly_to_view(struct viewer *viewer, size_t index)
         return;
     }
     viewer->flight = fly_flight_plan(&viewer->view, &view, trl_scene_ground_radius_m(scene));
+    viewer->flight.from_ground_m = trl_renderer_ground_altitude_m(
+        viewer->renderer, viewer->view.latitude_rad, viewer->view.longitude_rad);
+    viewer->flight.to_ground_m =
+        trl_renderer_ground_altitude_m(viewer->renderer, view.latitude_rad, view.longitude_rad);
     viewer->flight_started_s = glfwGetTime();
 }
 

@@ -233,10 +233,12 @@ struct fly_flight fly_flight_plan(const trl_view *from, const trl_view *to, doub
 static double find_flight_altitude(const struct fly_flight *flight, double arc_rad, double t)
 {
     const double floor_m = 100.0; // below it the way is linear, where logarithms would dwell
-    const double from_m = fly_camera_altitude_m(&flight->from) + floor_m;
-    const double to_m = fly_camera_altitude_m(&flight->to) + floor_m;
-    const double base_m = from_m > 0.0 && to_m > 0.0 ? exp(mix(log(from_m), log(to_m), t)) - floor_m
-                                                     : mix(from_m, to_m, t) - floor_m;
+    const double ground_m = mix(flight->from_ground_m, flight->to_ground_m, t) - floor_m;
+    const double from_m = fly_camera_altitude_m(&flight->from) - flight->from_ground_m + floor_m;
+    const double to_m = fly_camera_altitude_m(&flight->to) - flight->to_ground_m + floor_m;
+    const double base_m =
+        ground_m +
+        (from_m > 0.0 && to_m > 0.0 ? exp(mix(log(from_m), log(to_m), t)) : mix(from_m, to_m, t));
     const double arch = 4.0 * t * (1.0 - t);
     return base_m + 0.15 * arc_rad * flight->from.radius_m * arch * arch;
 }
@@ -280,7 +282,9 @@ trl_view fly_flight_view(const struct fly_flight *flight, double elapsed_s)
     trl_view view = flight->from_view;
     fly_camera_to_view(&camera, &view);
     set_flight_sun(flight, t, &view);
-    view.sidereal_rad = t < 0.5 ? flight->from_view.sidereal_rad : flight->to_view.sidereal_rad;
+    view.sidereal_rad =
+        flight->from_view.sidereal_rad +
+        t * remainder(flight->to_view.sidereal_rad - flight->from_view.sidereal_rad, 2 * pi);
     memcpy(view.bodies, t < 0.5 ? flight->from_view.bodies : flight->to_view.bodies,
            sizeof view.bodies);
     view.exposure_bias_ev =

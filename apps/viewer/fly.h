@@ -65,6 +65,8 @@ struct fly_flight {
     struct fly_camera from, to;
     trl_view from_view, to_view;
     double duration_s;
+    double from_ground_m, to_ground_m; // of the ground below both, from which heights are counted;
+                                       // planned as 0, to be set where it is known
 };
 struct fly_flight fly_flight_plan(const trl_view *from, const trl_view *to, double radius_m);
 // The view `elapsed_s` after the start; from the duration on it is `to`.

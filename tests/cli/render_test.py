@@ -98,6 +98,77 @@ class Pictures(ProgramTest):
             self.expect_success("render", self.scene, "--size", size, "-o", "a.png")
 
 
+class Flights(ProgramTest):
+    """From one view to another, as numbered pictures or into a video program that stands in for ffmpeg."""
+
+    def setUp(self):
+        super().setUp()
+        self.words = ["render", self.write_scene(), "--view", "orbit", "--to", "ground", "--size", "32x18"]
+
+    def test_numbered_pictures_lead_from_view_to_view(self):
+        done = self.expect_success(*self.words, "--seconds", 0.5, "--fps", 20, "--ev100", 14, "-o", "f-%03d.png")
+        self.assertEqual([path.name for path in sorted(self.work.iterdir())], [f"f-{i:03}.png" for i in range(10)])
+        self.assertIn("10 frames of 32x18", done.stdout)
+        # The first and the last are the views themselves; of codes, a dither may differ.
+        for view, frame in [("orbit", 0), ("ground", 9)]:
+            self.expect_success(*self.words[:2], "--view", view, "--size", "32x18", "--ev100", 14, "-o", "one.png")
+            _, _, alone = read_png(self.work / "one.png")
+            _, _, flown = read_png(self.work / f"f-{frame:03}.png")
+            self.assertLess(max(abs(a - b) for a, b in zip(b"".join(alone), b"".join(flown))), 3)
+
+    def test_exposure_follows_the_picture_within_a_second(self):
+        # From the dark side of orbit to the day: the first frame of day is not yet exposed for it.
+        words = [*self.words, "--fps", 4]
+        self.expect_success(*words, "--seconds", 3, "-o", "f%d.png")
+        levels = []
+        for i in range(12):
+            _, _, rows = read_png(self.work / f"f{i}.png")
+            levels.append(sum(map(sum, rows)) / (32 * 18 * 3))
+        steps = [abs(b - a) for a, b in zip(levels, levels[1:])]
+        # 12 frames over all of the range of codes: none takes half of it.
+        self.assertLess(max(steps), 127)
+        self.assertGreater(min(levels), 5)
+
+    def fake_encoder(self, text):
+        folder = self.folder / "bin"
+        folder.mkdir()
+        program = folder / "ffmpeg"
+        program.write_text("#!/bin/sh\n" + text)
+        program.chmod(0o755)
+        self.environment["PATH"] = f"{folder}:{self.environment['PATH']}"
+
+    def test_a_video_is_piped(self):
+        # Keeps what it was told and given where a video would be.
+        self.fake_encoder('for last; do :; done\necho "$@" > words.txt\ncat > "$last"\n')
+        self.expect_success(*self.words, "--seconds", 0.2, "-o", "flight.mp4")
+        self.assertEqual((self.work / "flight.mp4").stat().st_size, 5 * 32 * 18 * 4)
+        words = (self.work / "words.txt").read_text().split()
+        for word in ["rawvideo", "rgba", "32x18", "25"]:
+            self.assertIn(word, words)
+        self.assertEqual(sorted(path.name for path in self.work.iterdir()), ["flight.mp4", "words.txt"])
+
+    def test_a_video_that_fails_leaves_nothing(self):
+        self.fake_encoder("exit 3\n")
+        words = [*self.words, "--seconds", 0.2, "-o"]
+        done = self.run_program(*words, "flight.mkv")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("flight.mkv: ffmpeg", done.stderr)
+        self.assertEqual(list(self.work.iterdir()), [])
+        self.environment["PATH"] = "/nowhere"
+        self.expect_failure(1, [*words, "flight.mp4"], ["not installed", "flight-%04d.png"])
+
+    def test_wrong_words(self):
+        name = ["--seconds", 0.2, "-o"]
+        self.expect_failure(2, [*self.words, *name, "f.png"], ["f.png", "flight-%04d.png"])
+        self.expect_failure(2, [*self.words, *name, "f-%04x.png"], ["f-%04x.png"])
+        self.expect_failure(2, [*self.words, *name, "f-%d-%d.png"], ["f-%d-%d.png"])
+        self.expect_failure(2, [*self.words, *name, "f.gif"], ["f.gif", ".mp4"])
+        self.expect_failure(2, [*self.words, *name, "f%d.png", "--to", "ground,orbti"], ["orbti"])
+        self.expect_failure(2, [*self.words, *name, "f%d.png", "--compare", "spectral,single"], ["--to", "--compare"])
+        self.expect_failure(2, [*self.words, *name, "f.mp4", "--size", "33x18"], ["even", "33x18"])
+        self.expect_failure(2, [*self.words[:2], "--fps", 10], ["--fps", "--to"])
+
+
 class Traced(ProgramTest):
     """Pictures by the path tracer, without OpenGL."""
 

@@ -257,6 +257,35 @@ static void a_flight_leads_smoothly_from_view_to_view(void **state)
     }
 }
 
+// Over a plateau heights are counted from it: half way from 100 km to 10 m above it the camera is at
+// their geometric mean (both with 100 m more), not at that of altitudes above the sphere.
+static void heights_of_a_flight_are_above_the_ground(void **state)
+{
+    (void)state;
+    trl_view from = trl_view_default();
+    from.altitude_m = 105000;
+    trl_view to = from;
+    to.altitude_m = 5010;
+    struct fly_flight flight = fly_flight_plan(&from, &to, radius_m);
+    flight.from_ground_m = flight.to_ground_m = 5000;
+    const trl_view half = fly_flight_view(&flight, flight.duration_s / 2);
+    assert_true(fabs(half.altitude_m - (4900 + sqrt(100100.0 * 110.0))) < 1e-3);
+}
+
+// Stars turn the shorter way, and do not jump.
+static void stars_turn_along(void **state)
+{
+    (void)state;
+    trl_view from = trl_view_default();
+    from.sidereal_rad = 0.1;
+    trl_view to = from;
+    to.latitude_rad = 0.5;
+    to.sidereal_rad = 2 * pi - 0.1;
+    const struct fly_flight flight = fly_flight_plan(&from, &to, radius_m);
+    const trl_view half = fly_flight_view(&flight, flight.duration_s / 2);
+    assert_true(fabs(half.sidereal_rad) < 1e-9);
+}
+
 static void opposite_vectors_and_equal_rotations_have_an_answer(void **state)
 {
     (void)state;
@@ -306,6 +335,8 @@ int main(void)
         cmocka_unit_test(looking_up_stops_at_the_zenith_near_the_ground),
         cmocka_unit_test(levelling_takes_out_the_roll_and_nothing_else),
         cmocka_unit_test(a_flight_leads_smoothly_from_view_to_view),
+        cmocka_unit_test(heights_of_a_flight_are_above_the_ground),
+        cmocka_unit_test(stars_turn_along),
         cmocka_unit_test(opposite_vectors_and_equal_rotations_have_an_answer),
         cmocka_unit_test(pace_follows_the_machine),
     };
