@@ -60,6 +60,24 @@ static struct surface_selection select_layers(const struct surface *surface,
     return surface_select(surface, &eye);
 }
 
+// Once for each kind: what a picture lacks must not be a riddle.
+static void tell_left_out(struct terrain_compose *compose, const struct surface_selection *seen)
+{
+    static const char *const names[SURFACE_KIND_COUNT] = {[SURFACE_ELEVATION] = "elevation",
+                                                          [SURFACE_COLOUR] = "colour",
+                                                          [SURFACE_WATER] = "water",
+                                                          [SURFACE_NORMAL] = "normals",
+                                                          [SURFACE_LIGHTS] = "lights"};
+    for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
+        if (seen->left_out[k] > 0 && !compose->has_told[k]) {
+            compose->has_told[k] = true;
+            trl_log(compose->gpu->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER,
+                    "%zu layers of %s are in view, of which a picture shows %zu: the largest in it",
+                    seen->counts[k] + seen->left_out[k], names[k], seen->counts[k]);
+        }
+    }
+}
+
 trl_result terrain_compose_draw(struct terrain_compose *compose,
                                 const struct terrain_compose_inputs *in,
                                 const struct gpu_target *target)
@@ -71,6 +89,7 @@ trl_result terrain_compose_draw(struct terrain_compose *compose,
     const bool has_noise =
         surface->is_invented || noise_is_seen(&surface->noise, nearest_m * pixel_rad);
     const struct surface_selection selection = select_layers(surface, in);
+    tell_left_out(compose, &selection);
     struct gpu_program *program =
         &compose->programs[has_noise][selection.counts[SURFACE_ELEVATION]];
     const struct anchor anchor = anchor_below(in->camera->position_m);

@@ -14,6 +14,7 @@ struct terrain_compose {
     // One for each number of elevation layers that are looked at, without noise and with: what is
     // out of sight costs nothing.
     struct gpu_program programs[2][SURFACE_SEEN_LAYERS + 1];
+    bool has_told[SURFACE_KIND_COUNT]; // that layers were left out
 };
 
 // TRL_ERROR_GPU; TRL_ERROR_MEMORY. Must not outlive the surface.

@@ -117,6 +117,9 @@ static void drop_smallest(const struct surface *s, enum surface_kind kind,
             smallest = i;
         }
     }
+    if (is_in_reach(&s->layers[kind][indices[smallest]].frame, eye)) {
+        selection->left_out[kind]++;
+    }
     selection->counts[kind]--;
     for (size_t i = smallest; i < selection->counts[kind]; i++) {
         indices[i] = indices[i + 1];

@@ -168,6 +168,7 @@ struct surface_eye {
 // these and of other kinds as many as a program holds, the smallest left out first.
 struct surface_selection {
     size_t counts[SURFACE_KIND_COUNT];
+    size_t left_out[SURFACE_KIND_COUNT]; // of those in reach
     uint8_t indices[SURFACE_KIND_COUNT][SURFACE_MAX_LAYERS];
 };
 struct surface_selection surface_select(const struct surface *surface,

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Prints one line for each scene file of the command line: "ok", or what is wrong with it.
+// Prints one line for each scene file of the command line: "ok", or what is wrong with it. Rasters
+// may be behind a network, as far as a scene's words go; nothing is fetched here.
 
 #include <stdio.h>
 #include <terrella/scene.h>
@@ -18,6 +19,7 @@ int main(int argc, char **argv)
 {
     trl_context_desc desc = trl_context_desc_default();
     desc.log = print_error;
+    desc.allows_remote = true;
     trl_context *ctx = NULL;
     if (trl_context_create(&desc, &ctx) != TRL_OK) {
         return 1;
