@@ -9,6 +9,9 @@
 // Mean square of the gradient of noise, per squared lattice unit.
 #define RELIEF_SLOPE2 3.0
 
+// And of noise itself.
+#define RELIEF_HEIGHT2 0.05
+
 // Part of a gully's slope that smaller gullies follow.
 #define RELIEF_FORK 0.5
 
@@ -25,9 +28,11 @@ SHARED_STRUCT(Relief)
     // Values of the octaves before, fading by a half: over ridges above 0, in valleys below. And
     // the gradient.
     Number past, past_x, past_y, past_z;
-    Number tone;    // for colours: a sum of values
-    Number cutting; // of the slope that noise and gullies leave, for what is finer
-    Number unseen;  // variance of the slopes of octaves that the footprint hides
+    Number tone;           // for colours: a sum of values
+    Number cutting;        // of the slope that noise and gullies leave, for what is finer
+    Number unseen;         // variance of the slopes of octaves that the footprint hides
+    Number unseen_height2; // and of their heights, m^2
+    Number passing;        // height that the footprint's mean has not, m
 };
 
 SHARED_FN Relief relief_of(Number height, Number x, Number y, Number z)
@@ -47,6 +52,8 @@ SHARED_FN Relief relief_of(Number height, Number x, Number y, Number z)
     r.tone = 0.0;
     r.cutting = 1.0;
     r.unseen = 0.0;
+    r.unseen_height2 = 0.0;
+    r.passing = 0.0;
     return r;
 }
 

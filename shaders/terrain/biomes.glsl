@@ -16,7 +16,8 @@ uniform vec4 u_biome_climate;      // degrees at the equator, at the poles, lost
 struct BiomePlace {
     vec4 place; // altitude, slope, latitude, without sign, and temperature
     float moisture, tone;
-    float slope_spread; // deviation of the slopes that are too small to be seen
+    // Deviations of the slopes, and of the heights in m, that are too small to be seen.
+    float slope_spread, height_spread;
 };
 
 BiomePlace biome_place(float altitude, float slope, float latitude, float moisture)
@@ -24,7 +25,7 @@ BiomePlace biome_place(float altitude, float slope, float latitude, float moistu
     float mean = biome_temperature(u_biome_climate.x, u_biome_climate.y, sin(latitude));
     return BiomePlace(vec4(altitude, slope, degrees(abs(latitude)),
                            mean - u_biome_climate.z * max(altitude, 0.0)),
-                      moisture, 0.0, 0.0);
+                      moisture, 0.0, 0.0, 0.0);
 }
 
 // Linear albedo; later biomes lie over earlier ones.
@@ -34,13 +35,17 @@ vec3 biome_albedo(vec3 below, BiomePlace p)
     for (int i = 0; i < u_biome_count; i++) {
         vec4 low = u_biome_low[i];
         vec4 high = u_biome_high[i];
-        vec4 feather = u_biome_feather[i];
-        feather.y += 2.0 * p.slope_spread;
         vec4 moist = u_biome_moisture[i];
-        float part = biome_within(p.place.y, low.y, high.y, feather.y);
-        part *= biome_within(biome_fray(p.place.x, feather.x, p.tone), low.x, high.x, feather.x);
-        part *= biome_within(biome_fray(p.place.z, feather.z, p.tone), low.z, high.z, feather.z);
-        part *= biome_within(biome_fray(p.place.w, feather.w, p.tone), low.w, high.w, feather.w);
+        vec4 x = p.place + 0.5 * p.tone * u_biome_feather[i]; // biome_fray
+        vec4 feather = u_biome_feather[i];
+        // A beach stays one, and the sea where it is.
+        feather.x += 2.0 * min(p.height_spread, max(high.x, 0.0));
+        feather.y += 2.0 * p.slope_spread;
+        feather.w += 2.0 * u_biome_climate.z * p.height_spread;
+        float part = biome_within(x.x, low.x, high.x, feather.x);
+        part *= biome_within(x.y, low.y, high.y, feather.y);
+        part *= biome_within(x.z, low.z, high.z, feather.z);
+        part *= biome_within(x.w, low.w, high.w, feather.w);
         part *= biome_within(biome_fray(p.moisture, moist.z, p.tone), moist.x, moist.y, moist.z);
         c = mix(c, u_biome_albedo[i].rgb * max(1.0 + u_biome_albedo[i].a * p.tone, 0.3), part);
     }

@@ -60,9 +60,11 @@ Look find_look(Tangent t, LookPlace p)
     look.water = max(look.water, sea);
 #endif
 #ifdef HAS_BIOMES
-    BiomePlace place = biome_place(r.height, steep, u_anchor.z + t.ground.geo.y, base.climate);
+    BiomePlace place =
+        biome_place(r.height - r.passing, steep, u_anchor.z + t.ground.geo.y, base.climate);
     place.tone = r.tone;
     place.slope_spread = sqrt(r.unseen);
+    place.height_spread = sqrt(r.unseen_height2);
     // A loop, since a branch would cost as much: the region is the pixel's own where that is
     // larger.
     for (int k = 0; k < (t.log2_footprint < u_region ? 2 : 1); k++) {

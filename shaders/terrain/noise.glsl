@@ -13,7 +13,7 @@ uniform ivec4 u_noise_map_base;
 uniform vec4 u_noise_map_place;
 // Of each octave: the anchor from the whole lattice point, 1 / wavelength in m; that point; log2 of
 // the wavelength in m, size relative to that of mountains, variance of its slopes and of
-// those below.
+// those below, of its heights and those below.
 uniform vec4 u_noise_place[24];
 uniform ivec4 u_noise_base[24];
 uniform vec4 u_noise_size[24];
@@ -148,6 +148,19 @@ bool noise_is_over(int i, int end, NoiseView view)
     return i >= end || u_noise_size[i].x - view.footprint < 1.0 || view.amplitude < 1e-3;
 }
 
+// What is not seen of an octave, which made the height out of `before`, counts by its variances.
+Relief noise_hide(Relief r, int i, float size, float before, NoiseView view)
+{
+    float seen = pow2(relief_seen(u_noise_size[i].x, view.footprint));
+    r.unseen += RELIEF_SLOPE2 * pow2(size * u_noise_place[i].w) * (1.0 - seen);
+    // Of a wave that is seen, its mean over a square keeps sinc^4: heights differ within a pixel.
+    float within = 6.6 * pow2(exp2(view.footprint) * u_noise_place[i].w);
+    float kept = max(1.0 - within, 0.0);
+    r.unseen_height2 += RELIEF_HEIGHT2 * size * size * (1.0 - seen * kept);
+    r.passing += (r.height - before) * (1.0 - sqrt(kept));
+    return r;
+}
+
 // The relief that is made on top of `r`. `up` is unit.
 Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
 {
@@ -161,9 +174,10 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
             float size = noise_size(i, view);
             float seen = relief_seen(u_noise_size[i].x, view.footprint);
             size *= part == 0 ? 1.0 : mix(u_noise_more.x, 1.0, r.cutting);
+            float before = r.height;
             r = relief_add(r, relief_fold(n, view.ridged), size * seen, u_noise_form.x);
             r.tone += size > 0.0 ? seen * relief_tone(u_noise_size[i].x) * n.value : 0.0;
-            r.unseen += RELIEF_SLOPE2 * pow2(size * u_noise_place[i].w) * (1.0 - seen * seen);
+            r = noise_hide(r, i, size, before, view);
         }
         r.fall_x = r.x;
         r.fall_y = r.y;
@@ -178,12 +192,15 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
                 noise_local(noise_stripes(noise_place(i, noise_turn(i, at)), d.x, d.y, d.z), i);
             float size = noise_size(i, view) * u_noise_form.y * relief_cutting(slope2);
             float seen = relief_seen(u_noise_size[i].x, view.footprint);
+            float before = r.height;
             r = relief_cut(r, n, size * seen);
-            r.unseen += RELIEF_SLOPE2 * pow2(size * u_noise_place[i].w) * (1.0 - seen * seen);
+            r = noise_hide(r, i, size, before, view);
         }
     }
-    r.unseen +=
-        RELIEF_SLOPE2 * pow2(view.amplitude) * (i < u_noise_ends.z ? u_noise_size[i].z : 0.0);
+    float below = pow2(view.amplitude) * (i < u_noise_ends.z ? 1.0 : 0.0);
+    int next = min(i, u_noise_ends.z - 1);
+    r.unseen += RELIEF_SLOPE2 * below * u_noise_size[next].z;
+    r.unseen_height2 += RELIEF_HEIGHT2 * below * u_noise_size[next].w;
     return r;
 }
 

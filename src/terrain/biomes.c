@@ -59,7 +59,7 @@ void biomes_colour(const struct biomes *biomes, const struct biome_place *place,
         double part = 1;
         for (int k = 0; k < 5; k++) {
             const struct biome_range *r = &ranges[k];
-            const double x = k == 1 ? values[k] : biome_fray(values[k], r->feather, place->tone);
+            const double x = biome_fray(values[k], r->feather, place->tone);
             part *= biome_within(x, r->low, r->high, r->feather);
         }
         const double tone = fmax(1 + b->variation * place->tone, 0.3);

@@ -474,15 +474,16 @@ static void bind_octaves(const struct terrain_noise *noise, const struct anchor 
     float places[NOISE_MAX_OCTAVES][4], sizes[NOISE_MAX_OCTAVES][4];
     int32_t bases[NOISE_MAX_OCTAVES][4];
     const size_t count = (size_t)noise->ends[2];
-    double tail = 0;
+    double tail = 0, tail_height = 0;
     for (int i = noise->ends[2] - 1; i >= 0; i--) {
         const NoisePlace p = find_place(noise, i, vec3_scale(anchor->up, noise->radius_m));
         const float place[4] = {(float)p.x, (float)p.y, (float)p.z, (float)(1 / noise->wave_m[i])};
         const int32_t base[4] = {(int32_t)p.i, (int32_t)p.j, (int32_t)p.k, 0};
         // Stones do not make a slope.
         tail += noise->wave_m[i] < SMALLEST_SLOPE_M ? 0 : pow(noise->size[i] / noise->wave_m[i], 2);
+        tail_height += pow(noise->size[i], 2);
         const float size[4] = {(float)log2(noise->wave_m[i]), (float)noise->size[i], (float)tail,
-                               0};
+                               (float)tail_height};
         for (int c = 0; c < 4; c++) {
             places[i][c] = place[c];
             bases[i][c] = base[c];
