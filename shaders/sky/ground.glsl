@@ -12,8 +12,10 @@
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
 uniform sampler2D u_albedo;   // square root of linear sRGB
 uniform sampler2D u_normal;   // xyz unit; w how much of the star terrain leaves
-uniform sampler2D u_lights;   // square root of linear sRGB
-uniform sampler2D u_region;   // the same: albedo around
+// Square root of linear sRGB; a: where there is water its depth, else root of the star's light
+// around.
+uniform sampler2D u_lights;
+uniform sampler2D u_region; // the same: albedo around; a: sky view factor
 #endif
 
 struct Ground {
@@ -27,6 +29,9 @@ struct Ground {
     vec3 lights;      // linear sRGB, of white
     float water;      // part that is open water
     float depth_code; // of that water: shared/sea.glsl
+    float open;       // sky view factor
+    // What ground around has of the star's light, 1 where it falls straight on; below 0: unknown.
+    float around_lit;
 #endif
 };
 
@@ -50,6 +55,8 @@ Ground find_ground(out Ray ray)
     ground.lights = lights.rgb * lights.rgb;
     ground.water = albedo.a;
     ground.depth_code = lights.a;
+    ground.around_lit = albedo.a > 0.0 ? -1.0 : lights.a * lights.a;
+    ground.open = region.a;
     return ground;
 }
 #else

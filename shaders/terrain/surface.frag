@@ -240,6 +240,8 @@ void main()
 #else
     float depth = 1.0;
 #endif
+    // What land has in alpha is added afterwards, and of what the sky leaves: sky_view.frag.
+    depth = look.water > 0.5 / 255.0 ? depth : 0.0;
     o_lights = is_ground * vec4(terrain_lights(tangent.ground, log2_footprint), depth);
-    o_region = is_ground * vec4(look.region, 1.0);
+    o_region = is_ground * vec4(look.region, 0.0);
 }

@@ -164,6 +164,9 @@ static trl_result make_passes(struct ground *ground, double sun_angular_radius_r
     if (result == TRL_OK) {
         result = terrain_compose_init(&ground->surface, &ground->compose);
     }
+    if (result == TRL_OK) {
+        result = terrain_sky_view_init(&ground->shadow, &ground->sky_view);
+    }
     return result;
 }
 
@@ -207,6 +210,7 @@ static void finish_buffers(struct ground *ground)
 {
     gpu_target_finish(&ground->mesh_target);
     gpu_target_finish(&ground->surface_target);
+    gpu_target_finish(&ground->sky_view_target);
     gpu_texture_finish(&ground->position);
     gpu_texture_finish(&ground->depth);
     gpu_texture_finish(&ground->albedo);
@@ -220,6 +224,7 @@ void ground_finish(struct ground *ground)
     finish_buffers(ground);
     facets_finish(&ground->facets);
     waves_finish(&ground->waves);
+    terrain_sky_view_finish(&ground->sky_view);
     terrain_compose_finish(&ground->compose);
     terrain_shadow_finish(&ground->shadow);
     for (int i = 0; i < MESHER_MAX_KINDS; i++) {
@@ -268,8 +273,15 @@ static trl_result make_targets(struct ground *ground)
                                                        {.texture = &ground->normal},
                                                        {.texture = &ground->lights},
                                                        {.texture = &ground->region}}};
-    const trl_result result = gpu_target_init(ground->gpu, &mesh, &ground->mesh_target);
-    return result == TRL_OK ? gpu_target_init(ground->gpu, &surface, &ground->surface_target)
+    const struct gpu_target_desc sky_view = {
+        .label = "sky view",
+        .color_count = 2,
+        .colors = {{.texture = &ground->lights}, {.texture = &ground->region}}};
+    trl_result result = gpu_target_init(ground->gpu, &mesh, &ground->mesh_target);
+    if (result == TRL_OK) {
+        result = gpu_target_init(ground->gpu, &surface, &ground->surface_target);
+    }
+    return result == TRL_OK ? gpu_target_init(ground->gpu, &sky_view, &ground->sky_view_target)
                             : result;
 }
 
@@ -290,6 +302,16 @@ trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height)
         finish_buffers(ground);
     }
     return result;
+}
+
+static trl_result draw_sky_view(struct ground *ground, const struct camera *camera)
+{
+    const struct terrain_sky_view_inputs inputs = {camera, &ground->position, &ground->normal,
+                                                   &ground->albedo};
+    const trl_result result = terrain_sky_view_update(&ground->sky_view);
+    return result == TRL_OK
+               ? terrain_sky_view_draw(&ground->sky_view, &inputs, &ground->sky_view_target)
+               : result;
 }
 
 trl_result ground_draw(struct ground *ground, const struct camera *camera, double time_s,
@@ -325,6 +347,10 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera, doubl
         frame_clock_part(clock, "waves");
         const struct facets_inputs inputs = {camera, time_s, &ground->position, &ground->albedo};
         result = facets_draw(&ground->facets, &inputs);
+    }
+    if (result == TRL_OK) {
+        frame_clock_part(clock, "sky view");
+        result = draw_sky_view(ground, camera);
     }
     return result;
 }

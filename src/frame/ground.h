@@ -6,11 +6,15 @@
 // lights. A scene without rasters is a bare sphere: it has no buffers, and the sky pass finds it by
 // itself.
 //
-//     position  RGBA32F   xyz relative to the camera, planet axes, m; w altitude, m, -1e9 where is
-//     no ground depth     DEPTH32F  reversed albedo    RGBA8     square root of the linear albedo;
-//     a: water normal    RGBA16F   xyz planet axes; w: how much of the sun is not hidden by terrain
-//     lights    RGBA8     square root of artificial light at night
-//     region    RGBA8     square root of the albedo, averaged as the light of the air does
+// - position, RGBA32F: xyz relative to the camera, planet axes, m; w altitude, m, -1e9 where is no
+//   ground
+// - depth, DEPTH32F: reversed
+// - albedo, RGBA8: square root of the linear albedo; a: water
+// - normal, RGBA16F: xyz planet axes; w: how much of the sun is not hidden by terrain
+// - lights, RGBA8: square root of artificial light at night; a: of water its depth, of land the
+//   root of the star's light on the ground around
+// - region, RGBA8: square root of the albedo, averaged as the light of the air does; a: sky view
+//   factor
 
 #include "base/camera.h"
 #include "frame/clock.h"
@@ -20,6 +24,7 @@
 #include "sky/sky.h"
 #include "terrain/compose.h"
 #include "terrain/mesher.h"
+#include "terrain/sky_view.h"
 
 struct ground {
     struct gpu *gpu;
@@ -32,14 +37,16 @@ struct ground {
     uint32_t hemisphere_cells;                // of those two
     double mesh_error_px;                     // wanted of meshers that follow one
     struct mesher *meshers[MESHER_MAX_KINDS]; // by trl_mesher; made when first asked for; none when
-                                              // bare, as the two passes below
+                                              // bare, as the passes below
     struct terrain_shadow shadow;
     struct terrain_compose compose;
     struct waves waves;
     struct facets facets;
     bool has_waves;
+    struct terrain_sky_view sky_view;
     struct gpu_texture position, depth, albedo, normal, lights, region;
     struct gpu_target mesh_target, surface_target;
+    struct gpu_target sky_view_target; // lights and region
 };
 
 // What the surface of a scene is made of; `layers` belongs to it.

@@ -33,9 +33,9 @@ struct terrain_compose_inputs {
 // color 0, RGBA8: square root of the linear albedo, and the part of it that is water;
 // color 1, RGBA16F or RGBA32F: unit normal in the planet frame, and the part of the sun that the
 // terrain leaves visible (not the planet's curve, not the air);
-// color 2, RGBA8: square root of the night lights, linear, 1 where the picture is white; alpha 1,
-// or the depth of open water by shared/sea.glsl, where the surface tells it.
-// color 3, RGBA8, where there is one: square root of the albedo of the region around; alpha 1.
+// color 2, RGBA8: square root of the night lights, linear, 1 where the picture is white; alpha 0 on
+// land, on open water 1, or its depth by shared/sea.glsl, where the surface tells it.
+// color 3, RGBA8, where there is one: square root of the albedo of the region around; alpha 0.
 // All 0 where there is no ground.
 TRL_MUST_USE trl_result terrain_compose_draw(struct terrain_compose *compose,
                                              const struct terrain_compose_inputs *inputs,

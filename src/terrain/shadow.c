@@ -139,25 +139,48 @@ trl_result terrain_shadow_update(struct terrain_shadow *s, const struct camera *
         s->extent = tan(fmin(s->projection.reach_rad + OUTSIDE_RAD, 3) / 2);
         s->power = projection_power(s->projection.near_m / s->surface->radius_m / 2 / s->extent,
                                     RING_AT_NEAR, SIDE / 2.0);
+        const struct surface_bounds bounds =
+            surface_bounds_around(s->surface, s->projection.anchor.up,
+                                  fmin(s->projection.reach_rad + OUTSIDE_RAD, SHARED_PI));
+        s->lowest_m = (double)bounds.min;
+        s->highest_m = (double)bounds.max;
+        s->made++;
     }
     s->sun = camera->sun_direction;
+    s->drawn++;
     return draw_map(s);
+}
+
+const struct gpu_texture *terrain_shadow_map(const struct terrain_shadow *shadow)
+{
+    return &shadow->maps[shadow->current];
+}
+
+struct terrain_shadow_place terrain_shadow_place(const struct terrain_shadow *s,
+                                                 const struct camera *camera)
+{
+    const struct anchor *anchor = &s->projection.anchor;
+    const double radius = s->surface->radius_m;
+    const struct vec3 offset =
+        anchor_local(anchor, vec3_sub(camera->position_m, vec3_scale(anchor->up, radius)));
+    struct terrain_shadow_place place = {
+        .power = (float)s->power,
+        .extent = (float)s->extent,
+        .radius_m = (float)radius,
+        .offset_m = {(float)offset.x, (float)offset.y, (float)offset.z}};
+    anchor_local_from_planet(anchor, place.local_from_planet);
+    return place;
 }
 
 void terrain_shadow_bind(const struct terrain_shadow *s, const struct camera *camera,
                          struct gpu_program *program)
 {
-    const struct anchor *anchor = &s->projection.anchor;
-    const double radius = s->surface->radius_m;
-    const struct vec3 offset = vec3_sub(camera->position_m, vec3_scale(anchor->up, radius));
-    const float map[4] = {(float)(1.0 - 1.0 / SIDE), (float)s->power, (float)s->extent,
-                          (float)radius};
-    float local_from_planet[9];
-    anchor_local_from_planet(anchor, local_from_planet);
+    const struct terrain_shadow_place place = terrain_shadow_place(s, camera);
+    const float map[4] = {(float)(1.0 - 1.0 / SIDE), place.power, place.extent, place.radius_m};
     gpu_program_set_vec4(program, "u_shadow", map);
     gpu_program_set_float(program, "u_shadow_sun", (float)s->sun_angular_radius_rad);
-    set_vec3(program, "u_shadow_toward", anchor_local(anchor, s->sun));
-    gpu_program_set_mat3(program, "u_shadow_from_planet", local_from_planet);
-    set_vec3(program, "u_shadow_offset", anchor_local(anchor, offset));
+    set_vec3(program, "u_shadow_toward", anchor_local(&s->projection.anchor, s->sun));
+    gpu_program_set_mat3(program, "u_shadow_from_planet", place.local_from_planet);
+    gpu_program_set_vec3(program, "u_shadow_offset", place.offset_m);
     gpu_program_set_texture(program, "u_shadow_map", &s->maps[s->current]);
 }

@@ -14,6 +14,7 @@
 // validate: PEAKED_COUNT 1; SURFACE; MOON
 // validate: PEAKED_COUNT 1; SURFACE; SEA
 
+#include "shared/sky_view.glsl"
 #include "sky/ground.glsl"
 #include "sky/spectral/air.glsl"
 #include "sky/spectral/colour.glsl"
@@ -47,6 +48,14 @@ vec4 bands_of(vec3 albedo)
     return max(u_bands_from_rgb[0] * albedo.r + u_bands_from_rgb[1] * albedo.g +
                    u_bands_from_rgb[2] * albedo.b,
                vec4(0.0));
+}
+#endif
+
+#ifdef SURFACE
+vec4 sent_again(float view, vec4 albedo)
+{
+    return vec4(sky_view_again(view, albedo.x), sky_view_again(view, albedo.y),
+                sky_view_again(view, albedo.z), sky_view_again(view, albedo.w));
 }
 #endif
 
@@ -96,8 +105,6 @@ Light light_ground(Ray ray, Ground ground, Air air)
 #endif
     level = lit;
 #endif
-    // A slope sees a part of the sky, and for the rest the ground around it.
-    float open = 0.5 + 0.5 * dot(ground.normal, up);
     float incidence = max(dot(ground.normal, u_sun + up * (height - sun_mu)), 0.0);
     Light light;
 #ifdef SURFACE
@@ -110,11 +117,16 @@ Light light_ground(Ray ray, Ground ground, Air air)
         (1.0 - above * min(rising / max(level, vec4(1.0e-20)), vec4(1.0))) / (1.0 - above * region);
     vec4 around = region * level * gain;
     sky += level * (gain - 1.0);
+    // A slope sees a part of the sky, and for the rest the ground around it, among terrain itself.
+    float open = ground.open;
     light.bounced = (around - rising) * (1.0 / SHARED_PI) * air.way *
                     textureLod(u_bounce, air.at, 0.0) * (1.0 - above) / (1.0 - whole);
+    float seen = ground.around_lit < 0.0 ? max(height, 0.0) : ground.around_lit;
+    around = region * (star * seen + sky * open) * sent_again(open, region);
 #else
     vec4 own = u_ground_albedo;
     vec4 around = own * level;
+    float open = 1.0;
     light.bounced = vec4(0.0);
 #endif
     vec4 irradiance = star * (incidence * ground.star_visible) + sky * open + around * (1.0 - open);
