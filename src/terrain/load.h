@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #ifndef TERRAIN_LOAD_H
 #define TERRAIN_LOAD_H
-// Private to load.c (rasters held whole) and load_tiles.c (those held in tiles).
+// Private to load.c (rasters held whole), load_sea.c and load_tiles.c (those held in tiles).
 
 #include "base/context.h"
 #include "terrain/surface.h"
