@@ -58,14 +58,15 @@ static double step_within(const struct march *march, double from, double to)
     return fmax(step, 0.25 * way->pixel_rad * from);
 }
 
-// Whether the whole piece is above all ground that it can pass: seen from the centre it is no
-// longer than its length over the lowest radius.
+// Whether the whole piece is above all ground that it can pass, around its middle: seen from the
+// centre a way is no longer than its length over the lowest radius.
 static bool is_clear_between(const struct march *march, double from, double to)
 {
     const struct reference_surface *surface = march->surface;
     const double lowest = lowest_between(march, from, to);
     const double stretch = march->radius_m / (march->radius_m + fmin(lowest, 0));
-    return lowest > surface->ceiling_m(surface->user, point_at(march, from), (to - from) * stretch);
+    const double reach = 0.5 * (to - from) * stretch;
+    return lowest > surface->ceiling_m(surface->user, point_at(march, 0.5 * (from + to)), reach);
 }
 
 // The way is above the ground at `before` and not at `behind`.

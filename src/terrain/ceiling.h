@@ -2,29 +2,21 @@
 // SPDX-License-Identifier: MIT
 #ifndef TERRAIN_CEILING_H
 #define TERRAIN_CEILING_H
-// Upper bounds of the heights around a place, quickly and for any size of neighbourhood: maxima of
-// blocks of texels, of blocks of those, and so on.
+// Upper bounds of the heights around a place, quickly and for any size of neighbourhood: of data by
+// the pyramids of its layers; with octaves of noise by the relief in the middle of cells and what
+// it can rise within them.
 
+#include "terrain/ceiling_cells.h"
+#include "terrain/ceiling_pyramid.h"
 #include "terrain/surface.h"
 
-enum { CEILING_MAX_LEVELS = 20 };
-
-// Of one elevation layer.
-struct ceiling_pyramid {
-    const struct terrain_layer *layer;
-    int level_count;
-    uint32_t width[CEILING_MAX_LEVELS], height[CEILING_MAX_LEVELS];
-    float *highest[CEILING_MAX_LEVELS]; // owned: one block, at the first
-    double all;                         // the highest of all
-    double steepest;                    // m per m; only where there is noise
-};
-
-// Must not outlive the surface.
+// Must not outlive the surface. Threads: any may ask.
 struct terrain_ceiling {
     const struct surface *surface;
     size_t count;
     double steepest_map; // of the noise's own ground, m per m
     struct ceiling_pyramid pyramids[SURFACE_MAX_LAYERS];
+    struct ceiling_cells cells; // where there is noise
 };
 
 // TRL_ERROR_MEMORY.

@@ -52,6 +52,7 @@ static void place_octaves(struct terrain_noise *noise)
     int count = 0;
     for (; count < desc->octaves && wave >= desc->smallest_m; count++) {
         noise->wave_m[count] = wave;
+        noise->log2_wave[count] = log2(wave);
         noise->size[count] = find_size(desc, wave);
         for (uint32_t c = 0; c < 3; c++) {
             noise->shift[count][c] = draw_number(desc->seed, 3 * (uint32_t)count + c);
@@ -343,7 +344,7 @@ static Relief add_noise(const struct terrain_noise *noise, const struct noise_pl
     const struct noise_ground *g = &place->ground;
     const NoiseValue n =
         noise_simplex(find_place(noise, i, vec3_scale(place->up, noise->radius_m)));
-    const double log2_wave = log2(noise->wave_m[i]);
+    const double log2_wave = noise->log2_wave[i];
     const double seen = relief_seen(log2_wave, place->log2_footprint);
     double size = g->amplitude_m * noise->size[i] * relief_lacking(log2_wave, place->log2_texel);
     if (i >= noise->ends[1]) {
@@ -366,7 +367,7 @@ static Relief add_gullies(const struct terrain_noise *noise, const struct noise_
     const NoiseValue n =
         noise_stripes(find_place(noise, i, vec3_scale(place->up, noise->radius_m)),
                       vec3_dot(rows[0], along), vec3_dot(rows[1], along), vec3_dot(rows[2], along));
-    const double log2_wave = log2(noise->wave_m[i]);
+    const double log2_wave = noise->log2_wave[i];
     const double size = place->ground.amplitude_m * noise->size[i] * GULLIES *
                         relief_seen(log2_wave, place->log2_footprint) *
                         relief_lacking(log2_wave, place->log2_texel) * relief_cutting(slope2);
@@ -380,8 +381,11 @@ Relief noise_relief_at(const struct terrain_noise *noise, const struct noise_pla
     const double full = relief_fullness(g->height_m, noise->desc.full_height_m);
     p.ground.amplitude_m *= full;
     Relief r = relief_of(g->height_m, g->slope.x, g->slope.y, g->slope.z);
+    if (!(p.ground.amplitude_m > 0)) {
+        return r; // at sea
+    }
     for (int i = 0; i < noise->ends[2] && i < place->octaves; i++) {
-        if (log2(noise->wave_m[i]) - place->log2_footprint < 1) {
+        if (noise->log2_wave[i] - place->log2_footprint < 1) {
             break;
         }
         const bool is_gully = i >= noise->ends[0] && i < noise->ends[1];
@@ -425,27 +429,64 @@ static const double STEEPEST_NOISE = 13;
 static const double NEXT_STEEPEST = 4;
 static const double STEEPEST_GULLY = 20;
 
-struct noise_rise noise_find_rise(const struct terrain_noise *noise,
-                                  const struct noise_ground *ground, double reach_m)
+// The least, the given and the largest of what octaves are multiplied by, within a reach.
+struct noise_range {
+    double least, here, most;
+};
+
+static struct noise_range find_amplitudes(const struct terrain_noise *noise,
+                                          const struct noise_place *place,
+                                          const struct noise_around *around)
 {
-    const double amplitude = ground->amplitude_m + noise->steepest_spread * reach_m;
-    const double up = RELIEF_WEIGHT_BOUND * (1 - 0.77 * fmax(ground->ridged - RIDGED_SLACK, 0));
-    struct noise_rise rise = {0, 0};
+    const struct noise_ground *g = &place->ground;
+    const double full = noise->desc.full_height_m;
+    const double spread = noise->steepest_spread * around->reach_m;
+    const double rise = around->steepest * around->reach_m;
+    const double height = fabs(g->height_m);
+    return (struct noise_range){fmax(g->amplitude_m - spread, 0) *
+                                    relief_fullness(fmax(height - rise, 0), full),
+                                g->amplitude_m * relief_fullness(height, full),
+                                (g->amplitude_m + spread) * relief_fullness(height + rise, full)};
+}
+
+// Of an octave, with what data leave of it; `texels` are what they may resolve (log2).
+static struct noise_range find_sizes(const struct terrain_noise *noise, int octave,
+                                     const struct noise_range *amplitudes, const double texels[3])
+{
+    const double size = noise->size[octave], wave = noise->log2_wave[octave];
+    return (struct noise_range){amplitudes->least * size * relief_lacking(wave, texels[0]),
+                                amplitudes->here * size * relief_lacking(wave, texels[1]),
+                                amplitudes->most * size * relief_lacking(wave, texels[2])};
+}
+
+struct noise_rise noise_find_rise(const struct terrain_noise *noise,
+                                  const struct noise_place *place,
+                                  const struct noise_around *around)
+{
+    // relief_fold: between -1.35 and 1 of plain noise, 0.23 of ridges.
+    const double ridged = fmax(place->ground.ridged - RIDGED_SLACK, 0);
+    const double up = RELIEF_WEIGHT_BOUND * (1 - 0.77 * ridged);
+    const double any = RELIEF_WEIGHT_BOUND * RELIEF_VALUE_BOUND;
+    const struct noise_range amplitudes = find_amplitudes(noise, place, around);
+    const double texels[3] = {around->log2_texel[0], place->log2_texel, around->log2_texel[1]};
+    struct noise_rise rise = {0, 0, 0};
     bool is_long = true;
     double steepest = 0;
     for (int i = 0; i < noise->ends[2]; i++) {
         const bool is_gully = i >= noise->ends[0] && i < noise->ends[1];
-        const double size = amplitude * noise->size[i];
-        const double most = size * (is_gully ? GULLIES : up);
-        const double slope = size * (is_gully ? GULLIES * STEEPEST_GULLY : STEEPEST_NOISE);
-        const double change = slope * reach_m / noise->wave_m[i];
-        is_long = is_long && change < most;
+        const struct noise_range size = find_sizes(noise, i, &amplitudes, texels);
+        const double most = size.most * (is_gully ? GULLIES : up);
+        const double slope = size.most * (is_gully ? GULLIES * STEEPEST_GULLY : STEEPEST_NOISE);
+        const double change = slope * around->reach_m / noise->wave_m[i];
+        is_long = is_long && (change < most || !(most > 0));
         rise.octaves += is_long;
+        rise.most_m += most;
         const double part = is_gully ? 1 : NEXT_STEEPEST / STEEPEST_NOISE;
         rise.rise_m += is_long ? part * change : most;
         steepest = is_long && !is_gully ? fmax(steepest, change) : steepest;
-        // What is there grows with the amplitude.
-        rise.rise_m += is_long ? 2 * noise->size[i] * noise->steepest_spread * reach_m : 0;
+        // What is there grows, or sinks, with what it is multiplied by.
+        const double grown = fmax(size.most - size.here, size.here - size.least);
+        rise.rise_m += is_long ? (is_gully ? GULLIES : any) * grown : 0;
     }
     rise.rise_m += steepest * (1 - NEXT_STEEPEST / STEEPEST_NOISE);
     return rise;

@@ -58,6 +58,7 @@ struct terrain_noise {
     double radius_m;
     int ends[3]; // octaves of noise, of gullies after them, of noise after those: the last is all
     double wave_m[NOISE_MAX_OCTAVES];
+    double log2_wave[NOISE_MAX_OCTAVES];
     double size[NOISE_MAX_OCTAVES];       // relative to that of mountains
     uint32_t shift[NOISE_MAX_OCTAVES][3]; // lattice points, by the seed
     struct vec3 lattice[3][3];            // rows; octaves take turns
@@ -104,14 +105,23 @@ struct noise_reach {
 struct noise_reach noise_find_reach(const struct terrain_noise *noise, double amplitude_m,
                                     double ridged);
 
-// An upper bound of how much higher than the relief of the longest octaves ground may be, anywhere
-// within a reach of the place; and how many octaves those are.
+// What is known of the ground around a place, without octaves.
+struct noise_around {
+    double reach_m;       // how far from it
+    double range_m;       // how much heights differ there at most
+    double steepest;      // m per m
+    double log2_texel[2]; // between what log2 of the size in m of what it resolves stays
+};
+
+// Upper bounds of how much higher ground may be, anywhere within a reach of a place: than the
+// relief of the longest octaves there, and how many those are; than the ground without octaves.
 struct noise_rise {
     int octaves;
-    double rise_m;
+    double rise_m, most_m;
 };
 struct noise_rise noise_find_rise(const struct terrain_noise *noise,
-                                  const struct noise_ground *ground, double reach_m);
+                                  const struct noise_place *place,
+                                  const struct noise_around *around);
 
 // The steepest slope of the map's heights, at most.
 double noise_find_steepest(const struct terrain_noise *noise);
