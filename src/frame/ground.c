@@ -16,6 +16,7 @@ static enum surface_kind choose_kind(enum layer_kind kind)
     case LAYER_ELEVATION:
         return SURFACE_ELEVATION;
     case LAYER_COLOUR:
+    case LAYER_SNOW: // a colour where the mask says so
         return SURFACE_COLOUR;
     case LAYER_WATER:
         return SURFACE_WATER;
@@ -48,7 +49,11 @@ void ground_describe(const trl_context *ctx, const struct trl_scene *scene,
                                                 .scale = layer->scale,
                                                 .offset_m = layer->offset_m,
                                                 .feather_rad = layer->feather_deg * M_PI / 180,
-                                                .mode = choose_mode(layer->blend)};
+                                                .mode = choose_mode(layer->blend),
+                                                .is_cover = layer->kind == LAYER_SNOW};
+        if (layers[i].is_cover) {
+            daylight_albedo(&scene->medium, &layer->albedo, layers[i].cover_rgb);
+        }
     }
     *out = surface_desc_default();
     out->radius_m = scene->medium.ground_radius_m;

@@ -3,7 +3,8 @@
 #include "scene/read.h"
 
 // In the order of enum layer_kind.
-static const char *const kind_keys[] = {"elevation", "colour", "water", "lights", "normal", NULL};
+static const char *const kind_keys[] = {"elevation", "colour", "water", "lights",
+                                        "normal",    "snow",   NULL};
 
 // What a layer of a kind may say beside its file.
 static const char *const extra_keys[][7] = {
@@ -12,10 +13,12 @@ static const char *const extra_keys[][7] = {
     [LAYER_WATER] = {"name", "optional", "feather_deg", "blend", NULL},
     [LAYER_LIGHTS] = {"name", "optional", "feather_deg", "blend", "radiance_cd_m2", NULL},
     [LAYER_NORMAL] = {"name", "optional", "feather_deg", "blend", NULL},
+    [LAYER_SNOW] = {"name", "optional", "feather_deg", "albedo", NULL},
 };
 
-static const char *const any_extra_keys[] = {"name",  "optional", "feather_deg",    "blend",
-                                             "scale", "offset_m", "radiance_cd_m2", NULL};
+static const char *const any_extra_keys[] = {"name",           "optional", "feather_deg",
+                                             "blend",          "scale",    "offset_m",
+                                             "radiance_cd_m2", "albedo",   NULL};
 
 // In the order of enum layer_blend.
 static const char *const blend_words[] = {"over", "add", "multiply", "max", "min", NULL};
@@ -26,7 +29,7 @@ static trl_result read_kind(const struct scene_node *node, enum layer_kind *kind
     const struct scene_choice choice = {.forms = kind_keys,
                                         .extra = any_extra_keys,
                                         .what = "an object with one of elevation, colour, water, "
-                                                "lights, normal"};
+                                                "lights, normal, snow"};
     size_t index = 0;
     const trl_result result = scene_node_choose(node, &choice, &index);
     *kind = (enum layer_kind)index;
@@ -97,6 +100,20 @@ static trl_result read_strings(const struct scene_node *node, struct layer *out)
     return result;
 }
 
+// Of deep, fine-grained snow that is a few days old (Wiscombe and Warren 1980, J. Atmos. Sci. 37),
+// to 0.02, when missing.
+static trl_result read_snow(const struct scene_node *node, struct layer *out)
+{
+    static const double NM[] = {400, 600, 700, 800}, ALBEDO[] = {0.92, 0.90, 0.87, 0.82};
+    const struct scene_node albedo = scene_node_member(node, "albedo");
+    if (out->kind != LAYER_SNOW) {
+        return TRL_OK;
+    }
+    return albedo.value ? scene_read_spectrum(&albedo, &(struct scene_range){.min = 0, .max = 1},
+                                              &out->albedo)
+                        : spectrum_table_init(node->doc->ctx, NM, ALBEDO, 4, &out->albedo);
+}
+
 static trl_result read_layer(const struct scene_node *node, struct layer *out)
 {
     *out = (struct layer){.scale = 1, .feather_deg = 0.1, .radiance_cd_m2 = 1};
@@ -112,6 +129,9 @@ static trl_result read_layer(const struct scene_node *node, struct layer *out)
     }
     if (result == TRL_OK) {
         result = read_blend(node, out);
+    }
+    if (result == TRL_OK) {
+        result = read_snow(node, out);
     }
     const struct scene_node optional = scene_node_member(node, "optional");
     return result == TRL_OK ? scene_node_bool_or(&optional, &out->is_optional) : result;

@@ -179,6 +179,7 @@ void trl_scene_destroy(trl_scene **scene)
         mem_free(ctx, s->layers[i].name);
         mem_free(ctx, s->layers[i].file);
         mem_free(ctx, s->layers[i].path);
+        spectrum_finish(ctx, &s->layers[i].albedo);
     }
     for (size_t i = 0; i < s->body_count; i++) {
         mem_free(ctx, s->bodies[i].name);

@@ -16,7 +16,8 @@ enum layer_kind {
     LAYER_COLOUR,    // sRGB picture of the ground's albedo
     LAYER_WATER,     // 1 = open water
     LAYER_LIGHTS,    // sRGB picture of artificial light at night
-    LAYER_NORMAL     // picture of normals of the map
+    LAYER_NORMAL,    // picture of normals of the map
+    LAYER_SNOW       // 1 = covered by snow; lies over colours
 };
 
 // How a layer is laid over those of its kind below it, in the order of shared/blend.glsl.
@@ -40,7 +41,8 @@ struct layer {
     double offset_m;    // elevation
     double feather_deg; // width of the blend at the layer's border and gaps
     enum layer_blend blend;
-    double radiance_cd_m2; // lights: luminance of white
+    double radiance_cd_m2;  // lights: luminance of white
+    struct spectrum albedo; // snow: of what covers the ground
 };
 
 // Made-up ground below the resolution of the layers; all 0: none.

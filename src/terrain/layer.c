@@ -405,9 +405,33 @@ static void make_root_table(uint8_t table[256])
     }
 }
 
-void layer_take_roots(uint8_t *rgba, size_t count)
+struct layer_cover layer_cover_of(const float rgb[3])
+{
+    struct layer_cover cover = {.is_there = true};
+    for (int c = 0; c < 3; c++) {
+        cover.roots[c] = (uint8_t)lrint(255 * sqrt(fmax(0, fmin(1, (double)rgb[c]))));
+    }
+    return cover;
+}
+
+static void take_cover(const struct layer_cover *cover, uint8_t *rgba, size_t count)
+{
+#pragma omp parallel for if (count > 1000000)
+    for (size_t i = 0; i < count; i++) {
+        rgba[4 * i + 3] = (uint8_t)((rgba[4 * i] * rgba[4 * i + 3] + 127) / 255);
+        for (int c = 0; c < 3; c++) {
+            rgba[4 * i + c] = cover->roots[c];
+        }
+    }
+}
+
+void layer_take_roots(const struct layer_cover *cover, uint8_t *rgba, size_t count)
 {
     uint8_t table[256];
+    if (cover->is_there) {
+        take_cover(cover, rgba, count);
+        return;
+    }
     make_root_table(table);
 #pragma omp parallel for if (count > 1000000)
     for (size_t i = 0; i < count; i++) {
@@ -442,7 +466,7 @@ trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
         result = voids_fill_picture(raster, &layer->frame, rgba);
     }
     if (result == TRL_OK) {
-        layer_take_roots(rgba, count);
+        layer_take_roots(&layer->cover, rgba, count);
         layer->roots = gpu ? NULL : rgba;
         result = gpu ? upload_bytes(gpu, GPU_FORMAT_RGBA8, rgba, layer) : TRL_OK;
     }

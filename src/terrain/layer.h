@@ -22,6 +22,12 @@ struct layer_heights {
     double scale, offset_m;
 };
 
+// Something that covers the ground with one colour, where a mask in place of a picture says so.
+struct layer_cover {
+    bool is_there;
+    uint8_t roots[3]; // square roots of linear values
+};
+
 struct stream;
 struct stream_layer;
 
@@ -31,6 +37,7 @@ struct terrain_layer {
     struct stream_layer *tiles;
     struct layer_frame frame;
     double mode;                  // of shared/blend.glsl
+    struct layer_cover cover;     // of pictures
     struct layer_heights heights; // of elevation layers only
     uint8_t *roots; // owned; of pictures without a GPU: RGBA, square roots of linear values, north
                     // row first
@@ -90,8 +97,10 @@ TRL_MUST_USE trl_result layer_take_heights(const struct raster *raster, const vo
                                            const struct layer_fill *below,
                                            struct terrain_layer *layer);
 
-// Square roots of linear values in place of sRGB codes, of `count` RGBA.
-void layer_take_roots(uint8_t *rgba, size_t count);
+// Square roots of linear values in place of sRGB codes, of `count` RGBA; of a cover its colour, and
+// as alpha the mask, times alpha.
+void layer_take_roots(const struct layer_cover *cover, uint8_t *rgba, size_t count);
+struct layer_cover layer_cover_of(const float rgb[3]);
 
 // What textures of the layer's heights hold: R16 where there is that for shorts, else R32F.
 void layer_scale_texture(const struct gpu *gpu, struct terrain_layer *layer);

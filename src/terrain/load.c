@@ -153,6 +153,9 @@ static trl_result load_layer(struct loader *loader, const struct surface_layer_d
     }
     struct terrain_layer *layer = &s->layers[desc->kind][s->counts[desc->kind]];
     *layer = (struct terrain_layer){.ctx = s->ctx, .mode = desc->mode};
+    if (desc->is_cover) {
+        layer->cover = layer_cover_of(desc->cover_rgb);
+    }
     if (item->is_tiled) {
         result = load_tiled(loader, desc, &item->raster, layer);
     } else {

@@ -109,7 +109,8 @@ static trl_result take_picture(const struct loader *loader, const struct stream_
         result = voids_fill_picture(&tiles->pyramid.raster, &layer->frame, layer->roots);
     }
     if (result == TRL_OK && tiles->is_root) {
-        layer_take_roots(layer->roots, (size_t)layer->frame.width * layer->frame.height);
+        layer_take_roots(&layer->cover, layer->roots,
+                         (size_t)layer->frame.width * layer->frame.height);
     }
     return result;
 }

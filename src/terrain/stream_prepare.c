@@ -152,7 +152,7 @@ static void prepare_picture(const struct stream_layer *l, uint8_t *rgba)
         (void)result; // without memory for it, gaps stay black below their alpha
     }
     if (l->is_root) {
-        layer_take_roots(rgba, PYRAMID_TEXELS);
+        layer_take_roots(&l->layer->cover, rgba, PYRAMID_TEXELS);
     }
 }
 

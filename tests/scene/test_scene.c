@@ -340,8 +340,9 @@ static void layers_are_read(void **state)
         *state, "{ \"elevation\": \"a.tif\" }",
         "{\"elevation\": \"a.tif\", \"scale\": 0.5, \"offset_m\": -3, \"feather_deg\": 2, "
         "\"optional\": true, \"name\": \"Alps\"}, {\"colour\": \"b/c.png\"}, "
-        "{\"water\": \"/w.tif\"}, {\"lights\": \"l.tif\", \"radiance_cd_m2\": 7}");
-    assert_int_equal(trl_scene_layer_count(s), 4);
+        "{\"water\": \"/w.tif\"}, {\"lights\": \"l.tif\", \"radiance_cd_m2\": 7}, "
+        "{\"snow\": \"s.tif\"}, {\"snow\": \"t.tif\", \"albedo\": [[400, 0.5], [500, 0.7]]}");
+    assert_int_equal(trl_scene_layer_count(s), 6);
     assert_string_equal(trl_scene_layer_name(s, 0), "Alps");
     assert_near(s->layers[0].scale, 0.5);
     assert_near(s->layers[0].offset_m, -3);
@@ -353,9 +354,12 @@ static void layers_are_read(void **state)
     assert_false(trl_scene_layer_is_present(s, 1));
     assert_string_equal(trl_scene_layer_path(s, 2), "/w.tif");
     assert_near(s->layers[3].radiance_cd_m2, 7);
-    assert_null(trl_scene_layer_name(s, 4));
-    assert_null(trl_scene_layer_path(s, 4));
-    assert_false(trl_scene_layer_is_present(s, 4));
+    assert_int_equal(s->layers[4].kind, LAYER_SNOW);
+    assert_near(spectrum_at(&s->layers[4].albedo, 600), 0.9);
+    assert_near(spectrum_at(&s->layers[5].albedo, 450), 0.6);
+    assert_null(trl_scene_layer_name(s, 6));
+    assert_null(trl_scene_layer_path(s, 6));
+    assert_false(trl_scene_layer_is_present(s, 6));
     trl_scene_destroy(&s);
 }
 

@@ -294,6 +294,43 @@ static void test_pixels_hold_colour_water_normal_and_lights(void **state)
     surface_finish(&s);
 }
 
+// Half of the sphere is grey with snow over a half of that.
+static void test_snow_lies_over_colours_where_its_mask_says(void **state)
+{
+    struct fixture *f = *state;
+    char picture[128], mask[128];
+    fixture_write_bytes(f, "grey", &GLOBE, grey, picture);
+    fixture_write_bytes(f, "snow", &GLOBE, west_is_water, mask);
+    const struct surface_layer_desc layers[] = {
+        {.kind = SURFACE_COLOUR, .path = picture},
+        {.kind = SURFACE_COLOUR, .path = mask, .is_cover = true, .cover_rgb = {0.9f, 0.8f, 0.7f}}};
+    const struct surface_desc desc = describe(layers, 2);
+    struct surface drawn, held;
+    assert_int_equal(surface_init(f->gpu, &desc, &drawn), TRL_OK);
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &held), TRL_OK);
+    for (int i = 0; i < 2; i++) {
+        const bool is_snow = i == 0;
+        const struct camera_place place = {.latitude = 30,
+                                           .longitude = is_snow ? -40 : 40,
+                                           .radius_m = desc.radius_m,
+                                           .altitude_m = 1e5,
+                                           .pitch = -90,
+                                           .fov = 20};
+        const struct camera camera = fixture_camera(&place);
+        const struct composed c = fixture_compose_middle(f, &drawn, &camera);
+        double rgb[3] = {0};
+        assert_true(surface_picture(&held, SURFACE_COLOUR, camera.position_m, rgb));
+        for (int k = 0; k < 3; k++) {
+            const double albedo = is_snow ? (double)layers[1].cover_rgb[k] : 0.5029; // sRGB 188
+            // A step of the root is 1/255.
+            assert_close(pow(c.albedo_water[k] / 255.0, 2), albedo, 0.009);
+            assert_close(rgb[k], albedo, 0.005);
+        }
+    }
+    surface_finish(&drawn);
+    surface_finish(&held);
+}
+
 static double flat_height(double latitude, double longitude)
 {
     (void)latitude;
@@ -459,6 +496,7 @@ int main(void)
         cmocka_unit_test(test_errors_name_the_file),
         cmocka_unit_test(test_a_missing_optional_layer_is_passed_over),
         cmocka_unit_test(test_pixels_hold_colour_water_normal_and_lights),
+        cmocka_unit_test(test_snow_lies_over_colours_where_its_mask_says),
         cmocka_unit_test(test_detail_stays_in_its_place_and_is_gone_from_afar),
         cmocka_unit_test(test_surfaces_are_the_same_without_a_gpu),
         cmocka_unit_test(test_normals_lean_as_the_heights_do),

@@ -113,6 +113,30 @@ static void heights_and_colours_are_those_of_whole_rasters(void **state)
     surface_finish(&tiled);
 }
 
+static void snow_is_that_of_whole_rasters(void **state)
+{
+    const struct fixture *f = *state;
+    struct files files;
+    write_files(f, &GLOBE, &files);
+    files.layers[2].is_cover = true;
+    files.layers[2].cover_rgb[1] = 0.8f;
+    const struct surface_desc whole_desc = describe(&files, WHOLE);
+    const struct surface_desc tiled_desc = describe(&files, TILED);
+    struct surface whole, tiled;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &whole_desc, &whole), TRL_OK);
+    assert_int_equal(surface_init_on_cpu(f->ctx, &tiled_desc, &tiled), TRL_OK);
+    for (int i = 0; i < 300; i++) {
+        const struct vec3 d = place(i, -86, 86);
+        double a[3] = {0.1, 0.1, 0.1}, b[3] = {0.1, 0.1, 0.1};
+        assert_true(surface_picture(&whole, SURFACE_COLOUR, d, a));
+        assert_true(surface_picture(&tiled, SURFACE_COLOUR, d, b));
+        assert_close(a[1], b[1], 1e-9);
+        assert_true(a[1] >= 0.0999 && a[1] < 0.804); // between what is below and snow
+    }
+    surface_finish(&whole);
+    surface_finish(&tiled);
+}
+
 static void bounds_hold_what_tiles_have(void **state)
 {
     const struct fixture *f = *state;
@@ -352,6 +376,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(heights_and_colours_are_those_of_whole_rasters),
+        TEST(snow_is_that_of_whole_rasters),
         TEST(bounds_hold_what_tiles_have),
         TEST(views_are_those_of_whole_rasters),
         TEST(meshes_follow_what_comes),
