@@ -243,6 +243,17 @@ static double find_flight_altitude(const struct fly_flight *flight, double arc_r
     return base_m + 0.15 * arc_rad * flight->from.radius_m * arch * arch;
 }
 
+// How far the camera has turned. On a way down it turns late and on a way up early, so that the place
+// that is far below stays in the picture: by a factor of 1000 in height, with the square.
+static double find_flight_turn(const struct fly_flight *flight, double t)
+{
+    const double from_m = fly_camera_altitude_m(&flight->from) - flight->from_ground_m;
+    const double to_m = fly_camera_altitude_m(&flight->to) - flight->to_ground_m;
+    const double fall = log(fmax(from_m, 1.0) / fmax(to_m, 1.0)) / log(1000.0);
+    const double square = t * (fall > 0.0 ? t : 2.0 - t);
+    return mix(t, square, fmin(fabs(fall), 1.0));
+}
+
 static void set_flight_sun(const struct fly_flight *flight, double t, trl_view *out)
 {
     const struct vector from = from_lat_lon(flight->from_view.sun_latitude_or_elevation_rad,
@@ -271,7 +282,7 @@ trl_view fly_flight_view(const struct fly_flight *flight, double elapsed_s)
     const struct rotation goal_at_start =
         rotation_multiply(rotation_invert(whole_way), flight->to.planet_from_camera);
     const struct rotation turned =
-        rotation_blend(flight->from.planet_from_camera, goal_at_start, t);
+        rotation_blend(flight->from.planet_from_camera, goal_at_start, find_flight_turn(flight, t));
     const double altitude_m = find_flight_altitude(flight, find_angle(start, goal), t);
     const struct fly_camera camera = {
         .radius_m = flight->from.radius_m,
