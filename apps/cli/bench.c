@@ -20,6 +20,8 @@ struct bench {
 static const struct bench benches[] = {
     {"solver", "light in Earth's air: 16 wavelengths, all orders to 0.1 %", bench_run_solver, NULL},
     {"tables", "the 4D table from that solution", bench_run_tables, NULL},
+    {"water-tables", "light out of the water over depth, view and star: time, size, error",
+     bench_run_water_tables, NULL},
     {"sky-frame", "frames of a bare sphere: from the ground, at the limb, full disc",
      bench_run_sky_frame, NULL},
     {"start", "from program start to the first finished picture, caches warm", bench_run_start,

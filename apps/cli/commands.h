@@ -9,6 +9,7 @@
 
 enum exit_status command_render(int argc, char **argv);
 enum exit_status command_sky(int argc, char **argv);
+enum exit_status command_sea(int argc, char **argv);
 enum exit_status command_view(int argc, char **argv);
 enum exit_status command_info(int argc, char **argv);
 enum exit_status command_bench(int argc, char **argv);

@@ -17,6 +17,7 @@ struct command {
 static const struct command commands[] = {
     {"render", "Write a picture of a scene (PNG or OpenEXR); needs no display.", command_render},
     {"sky", "Print spectral radiances of the sky as CSV; needs no OpenGL.", command_sky},
+    {"sea", "Print light in the water of a scene as CSV; needs no OpenGL.", command_sea},
     {"view", "Fly through a scene in a window.", command_view},
     {"info", "Show versions, what OpenGL offers, and data found and missing.", command_info},
     {"bench", "Measure speed and memory.", command_bench},

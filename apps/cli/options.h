@@ -59,7 +59,7 @@ struct option_spec {
     size_t section_count;
 };
 
-enum { OPTIONS_MAX_POSITIONALS = 16 };
+enum { OPTIONS_MAX_POSITIONALS = 24 };
 
 struct option_arguments {
     const char *positionals[OPTIONS_MAX_POSITIONALS];

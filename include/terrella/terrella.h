@@ -14,5 +14,6 @@
 #include <terrella/reference.h>
 #include <terrella/renderer.h>
 #include <terrella/scene.h>
+#include <terrella/water.h>
 
 #endif // TRL_TERRELLA_H

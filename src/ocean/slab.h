@@ -14,9 +14,9 @@
 #include "base/context.h"
 
 enum {
-    SLAB_BELOW = 14,   // nodes of rays that the surface reflects totally
-    SLAB_NODES = 32,   // of all: enough for products of two of the highest moments
-    SLAB_OTHERS = 16,  // at most
+    SLAB_BELOW = 14,  // nodes of rays that the surface reflects totally
+    SLAB_NODES = 32,  // of all: enough for products of two of the highest moments
+    SLAB_OTHERS = 16, // at most
     SLAB_MAX = SLAB_NODES + SLAB_OTHERS,
     SLAB_MOMENTS = 32, // of the phase function, after which it is cut
 };

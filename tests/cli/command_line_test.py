@@ -7,7 +7,7 @@ import unittest
 from process import SCENES, ProgramTest
 
 EARTH = SCENES / "earth.json"
-COMMANDS = ["render", "sky", "view", "info", "bench", "validate"]
+COMMANDS = ["render", "sky", "sea", "view", "info", "bench", "validate"]
 
 
 class Help(ProgramTest):
