@@ -48,6 +48,11 @@ SHARED_FN Number sea_disc_slope(Angle radius)
     return radius * radius / 8.0;
 }
 
+// Roughnesses that tables have: the mean square slope of all waves, and less by a factor of 2 to
+// this power for each level below it.
+#define SEA_LEVELS 3
+#define SEA_LEVEL_OCTAVES 3.0
+
 // Depth of water as a code for a byte, 1 at the shore and 0 from SEA_DEEP_M on, where no light
 // comes back from the bed of the clearest water; and back.
 #define SEA_DEEP_M 200.0

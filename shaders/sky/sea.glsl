@@ -7,14 +7,21 @@
 #include "shared/sea.glsl"
 #include "sky/ground.glsl"
 
-uniform sampler2D u_water; // depth x 2: reflectance of the water; x of the second row: that of the
-                           // surface over the root of the view's cosine, y: see Sea.mirror_mu
-uniform vec4 u_sea;        // mean square slope, refractive index, white share, its albedo
+uniform sampler2D u_water; // depth x (1 + roughnesses): reflectance of the water; x of other rows:
+                           // that of the surface over the root of the view's cosine, y: see
+                           // Sea.mirror_mu
+#ifdef FACETS
+uniform sampler2D u_facets; // normal of the waves that are resolved; mean square slope of the rest
+uniform float u_disc_slope; // what the star's disc adds
+#endif
+uniform vec4 u_sea;        // mean square slope of all, refractive index, white share, its albedo
 uniform float u_sea_texel; // 1 over depths of u_water
 uniform float u_shadowed;  // 1: terrain's shadow is the light's
 
 struct Sea {
-    vec3 up;
+    vec3 up, normal;
+    float level;   // roughness: see sea_level in sky/sea.h
+    vec3 mirrored; // the ray that comes from the sky by the mean normal
     float altitude_m;
     float sun_mu, height; // of the star, and of its visible part
     float view_mu;
@@ -32,9 +39,10 @@ vec4 water_at(float x, float row)
     return textureLod(u_water, vec2(x + (0.5 - x) * u_sea_texel, row), 0.0);
 }
 
-float surface_reflectance(float mu)
+// At a roughness, between its rows.
+vec4 surface_at(float mu, float level)
 {
-    return water_at(sqrt(clamp(mu, 0.0, 1.0)), 0.75).x;
+    return water_at(sqrt(clamp(mu, 0.0, 1.0)), (1.5 + level) / float(1 + SEA_LEVELS));
 }
 
 Sea find_sea(Ray ray, Ground ground)
@@ -44,27 +52,41 @@ Sea find_sea(Ray ray, Ground ground)
     sea.altitude_m = ground.altitude_m;
     sea.sun_mu = dot(sea.up, u_sun);
     sea.height = visible_height(sea.sun_mu, u_disc.y);
-    sea.view_mu = clamp(-dot(sea.up, ray.direction), 0.0, 1.0);
+    sea.normal = sea.up;
+    float mss = u_sea.x;
+#ifdef FACETS
+    vec4 waves = texelFetch(u_facets, ivec2(gl_FragCoord.xy), 0);
+    sea.normal = waves.xyz;
+    mss = max(waves.w + u_disc_slope, 1.0e-6);
+#endif
+    sea.level = clamp(float(SEA_LEVELS - 1) + log2(mss / u_sea.x) * (1.0 / SEA_LEVEL_OCTAVES), 0.0,
+                      float(SEA_LEVELS - 1));
+    sea.view_mu = clamp(-dot(sea.normal, ray.direction), 0.0, 1.0);
+    sea.mirrored = ray.direction + 2.0 * sea.view_mu * sea.normal;
     sea.visible = mix(1.0, ground.star_visible, u_shadowed);
     vec3 light = normalize(u_sun + sea.up * (sea.height - sea.sun_mu));
     vec3 facet = normalize(light - ray.direction);
-    sea.glint =
-        sea_glint(dot(facet, sea.up), dot(facet, light), sea.view_mu, sea.height, u_sea.x, u_sea.y);
-    vec4 surface = water_at(sqrt(sea.view_mu), 0.75);
+    float light_mu = max(dot(sea.normal, light), 0.0);
+    float glint =
+        sea_glint(dot(facet, sea.normal), dot(facet, light), sea.view_mu, light_mu, mss, u_sea.y);
+    sea.glint = light_mu > 0.0 ? glint : 0.0;
+    vec4 surface = surface_at(sea.view_mu, sea.level);
     sea.seen = surface.x;
     sea.mirror_mu = surface.y;
-    sea.passed = 1.0 - surface_reflectance(0.5);
-    sea.entered = 1.0 - surface_reflectance(sea.height);
-    sea.water = water_at(ground.depth_code, 0.25);
+    sea.passed = 1.0 - surface_at(0.5, float(SEA_LEVELS - 1)).x;
+    sea.entered = 1.0 - surface_at(sea.height, float(SEA_LEVELS - 1)).x;
+    sea.water = water_at(ground.depth_code, 0.5 / float(1 + SEA_LEVELS));
     return sea;
 }
 
-// The mirrored ray in the mean.
-vec3 sea_mirror(Sea sea, vec3 direction)
+// The mirrored ray in the mean of the facets.
+vec3 sea_mirror(Sea sea)
 {
-    vec3 along = direction + sea.up * sea.view_mu;
-    float level = sqrt(max(1.0 - sea.mirror_mu * sea.mirror_mu, 0.0));
-    return along * (level / max(length(along), 1.0e-6)) + sea.up * sea.mirror_mu;
+    float mu = clamp(dot(sea.mirrored, sea.up), 0.0, 1.0);
+    vec3 along = sea.mirrored - sea.up * dot(sea.mirrored, sea.up);
+    float mean = min(mu + max(sea.mirror_mu - sea.view_mu, 0.0), 1.0);
+    float level = sqrt(max(1.0 - mean * mean, 0.0));
+    return along * (level / max(length(along), 1.0e-6)) + sea.up * mean;
 }
 
 // Radiance under light of the star (on a plane that faces it), irradiance of level ground by the

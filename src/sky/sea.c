@@ -55,6 +55,13 @@ static void find_facets(const struct sky_sea *sea, double view_mu, struct facet 
     }
 }
 
+struct sky_sea sea_at_level(const struct sky_sea *sea, int level)
+{
+    struct sky_sea smoother = *sea;
+    smoother.mean_square_slope *= exp2(SEA_LEVEL_OCTAVES * (level - (SEA_LEVELS - 1)));
+    return smoother;
+}
+
 double sea_surface_reflectance(const struct sky_sea *sea, double mu, double *mirror_mu)
 {
     struct facet facets[FACETS];
@@ -192,7 +199,8 @@ static void fill_view(const struct seen_sky *sky, const struct sky_sea *sea, int
                 }
             }
             store_bands(&a->bands, xyz,
-                        texels + ((size_t)sun * SEA_MIRROR_AZIMUTHS + (size_t)az) * BAND_COUNT);
+                        texels + ((size_t)sun * SEA_LEVELS * SEA_MIRROR_AZIMUTHS + (size_t)az) *
+                                     BAND_COUNT);
         }
     }
 }
@@ -216,10 +224,15 @@ trl_result sea_mirror_make(const struct atmosphere *atmosphere, const struct sky
             sky.slices[c][k] = logf(fmaxf(sky.slices[c][k], 1e-20f));
         }
     }
-    const size_t view_floats = (size_t)table->size.suns * SEA_MIRROR_AZIMUTHS * BAND_COUNT;
+    const size_t view_floats =
+        (size_t)table->size.suns * SEA_LEVELS * SEA_MIRROR_AZIMUTHS * BAND_COUNT;
 #pragma omp parallel for schedule(dynamic, 1)
-    for (int view = 0; view < SEA_MIRROR_VIEWS; view++) {
-        fill_view(&sky, sea, view, texels + (size_t)view * view_floats);
+    for (int k = 0; k < SEA_MIRROR_VIEWS * SEA_LEVELS; k++) {
+        const int view = k / SEA_LEVELS, level = k % SEA_LEVELS;
+        const struct sky_sea rough = sea_at_level(sea, level);
+        fill_view(&sky, &rough, view,
+                  texels + (size_t)view * view_floats +
+                      (size_t)level * SEA_MIRROR_AZIMUTHS * BAND_COUNT);
     }
     mem_free(atmosphere->ctx, slices);
     return TRL_OK;

@@ -24,7 +24,10 @@ struct sky_sea {
 // and the cosine of the zenith angle where they mirror, in the mean weighed by their reflectance.
 double sea_surface_reflectance(const struct sky_sea *sea, double mu, double *mirror_mu);
 
-// Mirrored light: [view][sun][azimuth][BAND_COUNT], logarithms of bands per unit irradiance of the
+// The same sea with the mean square slope of a level of shared/sea.glsl.
+struct sky_sea sea_at_level(const struct sky_sea *sea, int level);
+
+// Mirrored light: [view][sun][level][azimuth][BAND_COUNT], logarithms of bands per unit irradiance of the
 // star, means over the facets that a view sees weighed by their reflectance. Views are uniform in
 // the root of their cosine, suns as in the 4D table, azimuths of the mirrored ray from the star's
 // in the sine of their half: dense where the aureole is.

@@ -35,10 +35,11 @@ static void fill(const struct sky_sea *sea, const struct bands *bands, float *te
         }
     }
     float *surface = texels + SKY_SEA_DEPTHS * BAND_COUNT;
-    for (int i = 0; i < SKY_SEA_DEPTHS; i++) {
-        const double root = fmax((double)i / (SKY_SEA_DEPTHS - 1), 0.02);
+    for (int i = 0; i < SEA_LEVELS * SKY_SEA_DEPTHS; i++) {
+        const struct sky_sea rough = sea_at_level(sea, i / SKY_SEA_DEPTHS);
+        const double root = fmax((double)(i % SKY_SEA_DEPTHS) / (SKY_SEA_DEPTHS - 1), 0.02);
         double mirror_mu;
-        surface[i * BAND_COUNT] = (float)sea_surface_reflectance(sea, root * root, &mirror_mu);
+        surface[i * BAND_COUNT] = (float)sea_surface_reflectance(&rough, root * root, &mirror_mu);
         surface[i * BAND_COUNT + 1] = (float)mirror_mu;
     }
 }
@@ -48,13 +49,13 @@ trl_result sea_water_prepare(struct sea_water *water, struct gpu *gpu, const str
     if (!water->sea || water->texture.name) {
         return TRL_OK;
     }
-    float texels[2 * SKY_SEA_DEPTHS * BAND_COUNT] = {0};
+    float texels[(1 + SEA_LEVELS) * SKY_SEA_DEPTHS * BAND_COUNT] = {0};
     fill(water->sea, bands, texels);
     struct gpu_texture_desc desc = gpu_texture_desc_default();
     desc.label = "water";
     desc.format = GPU_FORMAT_RGBA16F;
     desc.width = SKY_SEA_DEPTHS;
-    desc.height = 2;
+    desc.height = 1 + SEA_LEVELS;
     desc.data = texels;
     return gpu_texture_init(gpu, &desc, &water->texture);
 }
@@ -66,6 +67,10 @@ void sea_water_set(const struct sea_water *water, const struct sky_view *view,
     gpu_program_set_texture(program, "u_water", &water->texture);
     gpu_program_set_float(program, "u_shadowed", view->is_added == view->moon.is_main ? 1 : 0);
     gpu_program_set_float(program, "u_sea_texel", 1.0f / SKY_SEA_DEPTHS);
+    if (view->surface.facets) {
+        gpu_program_set_texture(program, "u_facets", view->surface.facets);
+        gpu_program_set_float(program, "u_disc_slope", (float)water->disc_slope);
+    }
     sky_set_vec4(program, "u_sea", fmax(s->mean_square_slope + water->disc_slope, 1e-6), s->index,
                  s->white_share, s->white_albedo);
 }

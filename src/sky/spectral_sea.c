@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "sky/spectral_sea.h"
 
+#include "shared/sea.glsl"
+
 #include <stdio.h>
 
 void spectral_sea_init(const struct sky_desc *desc, struct spectral_sea *out)
@@ -30,7 +32,8 @@ void spectral_sea_finish(struct spectral_sea *sea)
 
 static trl_result make_mirror(struct spectral_sea *sea, const struct atmosphere *a)
 {
-    const uint32_t size[3] = {SEA_MIRROR_AZIMUTHS, (uint32_t)a->table.size.suns, SEA_MIRROR_VIEWS};
+    const uint32_t size[3] = {SEA_LEVELS * SEA_MIRROR_AZIMUTHS, (uint32_t)a->table.size.suns,
+                              SEA_MIRROR_VIEWS};
     float *texels =
         mem_alloc(a->ctx, (size_t)size[0] * size[1] * size[2] * BAND_COUNT, sizeof *texels);
     trl_result result = texels ? sea_mirror_make(a, sea->water.sea, texels) : TRL_ERROR_MEMORY;
@@ -43,16 +46,23 @@ static trl_result make_mirror(struct spectral_sea *sea, const struct atmosphere 
 }
 
 static trl_result make_program(struct spectral_sea *sea, const struct atmosphere *a,
-                               bool has_eclipse)
+                               bool has_facets, bool has_eclipse)
 {
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", a->peaked.count);
     // What is added leaves the picture's alpha, as moonlight does.
-    const char *const defines[] = {peaked, "SURFACE", "MOON", "ECLIPSE"};
+    const char *defines[5] = {peaked, "SURFACE", "MOON"};
+    size_t count = 3;
+    if (has_facets) {
+        defines[count++] = "FACETS";
+    }
+    if (has_eclipse) {
+        defines[count++] = "ECLIPSE";
+    }
     const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
                                           .fragment = "sky/spectral/sea.frag",
                                           .defines = defines,
-                                          .define_count = has_eclipse ? 4 : 3};
+                                          .define_count = count};
     struct gpu_program *program = &sea->programs[has_eclipse];
     gpu_program_finish(program); // what an attempt that failed has left
     const trl_result result = gpu_program_init(sea->gpu, &desc, program);
@@ -71,7 +81,7 @@ trl_result spectral_sea_prepare(struct spectral_sea *sea, const struct spectral_
         result = make_mirror(sea, maps->atmosphere);
     }
     return result == TRL_OK && !sea->has_program[has_eclipse]
-               ? make_program(sea, maps->atmosphere, has_eclipse)
+               ? make_program(sea, maps->atmosphere, view->surface.facets, has_eclipse)
                : result;
 }
 

@@ -101,6 +101,18 @@ static void note_row(const struct mask_row *row, const struct terrain_layer *lay
     }
 }
 
+// Whether a layer below has a height for each texel of the mask, which a coarser one need not bend.
+static bool is_known(const struct surface *surface, const struct layer_frame *mask,
+                     const struct terrain_layer *layer)
+{
+    bool is_filled = false;
+    for (size_t i = 0; i < surface->counts[SURFACE_ELEVATION]; i++) {
+        const struct terrain_layer *below = &surface->layers[SURFACE_ELEVATION][i];
+        is_filled = is_filled || find_same_row(mask, &below->frame, mask->height / 2) >= 0;
+    }
+    return is_filled && layer->frame.texel_height > 0.9 * mask->texel_height;
+}
+
 void load_note_depths(struct surface *surface, const struct terrain_layer *layer)
 {
     if (layer->mode == BLEND_ADD || layer->mode == BLEND_MULTIPLY) {
@@ -108,7 +120,7 @@ void load_note_depths(struct surface *surface, const struct terrain_layer *layer
     }
     for (size_t i = 0; i < surface->counts[SURFACE_WATER]; i++) {
         const struct layer_frame *mask = &surface->layers[SURFACE_WATER][i].frame;
-        uint8_t *depths = surface->depths[i];
+        uint8_t *depths = is_known(surface, mask, layer) ? NULL : surface->depths[i];
 #pragma omp parallel for schedule(dynamic, 16) if (depths)
         for (uint32_t y = 0; y < (depths ? mask->height : 0); y++) {
             if (is_met(mask, &layer->frame, y)) {

@@ -43,7 +43,7 @@ void main()
     float horizon_mu = -sqrt(max(ground.altitude_m * (u_planet.x + radius), 0.0)) / radius;
     float share = rayleigh_visible((sea.sun_mu - horizon_mu) / u_disc.y);
     vec4 sent = vec4(max(star_through(view + star), vec3(0.0)) * share, 0.0);
-    vec3 sky = air_light(look_up(sea, sea_mirror(sea, ray.direction)));
+    vec3 sky = air_light(look_up(sea, sea_mirror(sea)));
     vec3 whole = max(star_through(0.0), vec3(1.0e-6));
     vec4 mirrored = vec4(sky * max(star_through(view), vec3(0.0)) / whole, 0.0);
     vec4 light = sea_radiance(sea, sent, vec4(0.0), mirrored);

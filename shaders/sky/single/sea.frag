@@ -32,7 +32,7 @@ void main()
     Ray ray;
     Ground ground = find_ground(ray);
     Sea sea = find_sea(ray, ground);
-    vec3 sky = sky_above(sea, sea_mirror(sea, ray.direction));
+    vec3 sky = sky_above(sea, sea_mirror(sea));
     vec4 mirrored =
         u_added_from_rgb[0] * sky.r + u_added_from_rgb[1] * sky.g + u_added_from_rgb[2] * sky.b;
     Point p;

@@ -5,6 +5,7 @@
 // white caps. What the air itself adds is drawn there.
 // validate: PEAKED_COUNT 1; SURFACE; MOON
 // validate: PEAKED_COUNT 3; SURFACE; MOON
+// validate: PEAKED_COUNT 1; SURFACE; MOON; FACETS
 // validate: PEAKED_COUNT 1; SURFACE; MOON; ECLIPSE
 
 #include "sky/sea.glsl"
@@ -23,16 +24,23 @@ uniform vec2 u_mirror_texel; // 1 over azimuths and views
 
 layout(location = 0) out vec4 out_radiance;
 
-// The sky as the facets that are seen mirror it, weighed by their reflectance.
-vec4 mirrored_sky(Sea sea, float nu, float day)
+// The sky as the facets that are seen mirror it, weighed by their reflectance: as level water would
+// that mirrors the same ray.
+vec4 mirrored_sky(Sea sea, float day)
 {
-    float azimuth = sqrt(sky_map_azimuth(azimuth_cosine(-sea.view_mu, sea.sun_mu, nu)));
-    vec3 at = vec3(centre(azimuth, u_mirror_texel.x), centre(day, u_slice_texel.y),
-                   centre(sqrt(sea.view_mu), u_mirror_texel.y));
+    float mu = clamp(dot(sea.mirrored, sea.up), 0.0, 1.0);
+    float nu = dot(sea.mirrored, u_sun);
+    float azimuth = sqrt(sky_map_azimuth(azimuth_cosine(mu, sea.sun_mu, nu)));
+    // One table for each roughness, side by side.
+    float lower = min(floor(sea.level), float(SEA_LEVELS - 2));
+    vec3 at = vec3((centre(azimuth, u_mirror_texel.x) + lower) / float(SEA_LEVELS),
+                   centre(day, u_slice_texel.y), centre(sqrt(mu), u_mirror_texel.y));
+    vec4 smooth_sea = textureLod(u_mirror, at, 0.0);
+    vec4 rough_sea = textureLod(u_mirror, at + vec3(1.0 / float(SEA_LEVELS), 0.0, 0.0), 0.0);
     // Lower suns than the lowest of the table, as in sky_light.
     float beyond =
         min(sky_map_asinh((sea.sun_mu - u_sun_grid.x) / u_sun_grid.y) - u_sun_grid.z, 0.0);
-    return exp(textureLod(u_mirror, at, 0.0) + 9.3 * beyond);
+    return exp(mix(smooth_sea, rough_sea, sea.level - lower) + 9.3 * beyond);
 }
 
 // In the bands, before the air.
@@ -48,7 +56,7 @@ vec4 sea_light(Ray ray, Ground ground)
     vec4 star = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
     float day = sun_coordinate(sea.sun_mu);
     vec4 sky = exp(textureLod(u_skylight, vec2(centre(day, u_light_texel.y), altitude), 0.0));
-    vec4 mirrored = mirrored_sky(sea, ray.nu, day);
+    vec4 mirrored = mirrored_sky(sea, day);
 #ifdef ECLIPSE
     vec3 place = ray.direction * ground.distance_m;
     float left = star_left(place);
