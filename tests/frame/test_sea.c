@@ -122,8 +122,9 @@ static void the_glint_is_that_of_the_slopes(void **state)
         const double wanted = ground[0] * PI * fresnel_reflectance(cos(tilt), 1.34) *
                               exp(-slope2 / MSS) / (PI * MSS) / (4 * pow(cos(tilt), 4));
         printf("sun at %g deg: %g, closed form %g\n", ELEVATIONS_DEG[i], glint[i], wanted);
-        // Four bands and float: half a hundredth; the tail falls by 2 % a tenth of a degree.
-        assert_true(fabs(glint[i] / wanted - 1) < (i < 2 ? 0.005 : 0.02));
+        // Waves that pixels of 600 m leave unseen have the slopes of all within a hundredth; the
+        // tail falls by 2 % a tenth of a degree.
+        assert_true(fabs(glint[i] / wanted - 1) < (i < 2 ? 0.015 : 0.04));
         assert_true(fabs(ground[i] / ground[0] - sin(elevation)) < 0.005);
     }
 }
