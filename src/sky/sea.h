@@ -27,10 +27,10 @@ double sea_surface_reflectance(const struct sky_sea *sea, double mu, double *mir
 // The same sea with the mean square slope of a level of shared/sea.glsl.
 struct sky_sea sea_at_level(const struct sky_sea *sea, int level);
 
-// Mirrored light: [view][sun][level][azimuth][BAND_COUNT], logarithms of bands per unit irradiance of the
-// star, means over the facets that a view sees weighed by their reflectance. Views are uniform in
-// the root of their cosine, suns as in the 4D table, azimuths of the mirrored ray from the star's
-// in the sine of their half: dense where the aureole is.
+// Mirrored light: [view][sun][level][azimuth][BAND_COUNT], logarithms of bands per unit irradiance
+// of the star, means over the facets that a view sees weighed by their reflectance. Views are
+// uniform in the root of their cosine, suns as in the 4D table, azimuths of the mirrored ray from
+// the star's in the sine of their half: dense where the aureole is.
 enum { SEA_MIRROR_VIEWS = 24, SEA_MIRROR_AZIMUTHS = 16 };
 // TRL_ERROR_MEMORY.
 TRL_MUST_USE trl_result sea_mirror_make(const struct atmosphere *atmosphere,
