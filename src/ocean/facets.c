@@ -36,7 +36,7 @@ trl_result facets_resize(struct facets *facets, uint32_t width, uint32_t height)
     finish_target(facets);
     struct gpu_texture_desc desc = gpu_texture_desc_default();
     desc.label = "facets";
-    desc.format = GPU_FORMAT_RGBA16F;
+    desc.format = GPU_FORMAT_RGBA32F;
     desc.filter = GPU_FILTER_NEAREST;
     desc.width = width;
     desc.height = height;

@@ -14,7 +14,7 @@ struct facets {
     struct gpu *gpu;
     struct wave_texture waves;
     struct gpu_program program;
-    struct gpu_texture texture; // RGBA16F: unit normal, planet axes; mean square slope left; 0
+    struct gpu_texture texture; // RGBA32F: unit normal, planet axes; mean square slope left; 0
                                 // where there is no water
     struct gpu_target target;
 };
