@@ -82,10 +82,11 @@ static double find_step(const void *user, struct vec3 direction, double reach_m)
     return surface_half_texel_m(&relief->surface, direction, reach_m / relief->surface.radius_m);
 }
 
-static double find_ceiling(const void *user, struct vec3 direction, double reach_m)
+static bool is_below(const void *user, struct vec3 direction, double reach_m, double altitude_m)
 {
     const struct relief *relief = user;
-    return terrain_ceiling_m(&relief->ceiling, direction, reach_m / relief->surface.radius_m);
+    const double angle_rad = reach_m / relief->surface.radius_m;
+    return terrain_ceiling_is_below(&relief->ceiling, direction, angle_rad, altitude_m);
 }
 
 static void look(const void *user, struct vec3 direction, struct reference_look *out)
@@ -120,6 +121,6 @@ struct reference_surface relief_surface(const struct relief *relief)
                                       .white_cd_m2 = relief->lights_cd_m2,
                                       .altitude_m = find_altitude,
                                       .step_m = find_step,
-                                      .ceiling_m = find_ceiling,
+                                      .is_below = is_below,
                                       .look = look};
 }

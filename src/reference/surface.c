@@ -66,7 +66,7 @@ static bool is_clear_between(const struct march *march, double from, double to)
     const double lowest = lowest_between(march, from, to);
     const double stretch = march->radius_m / (march->radius_m + fmin(lowest, 0));
     const double reach = 0.5 * (to - from) * stretch;
-    return lowest > surface->ceiling_m(surface->user, point_at(march, 0.5 * (from + to)), reach);
+    return surface->is_below(surface->user, point_at(march, 0.5 * (from + to)), reach, lowest);
 }
 
 // The way is above the ground at `before` and not at `behind`.

@@ -32,8 +32,9 @@ struct reference_surface {
     // Along the ground within `reach_m` the height bends as a parabola does over this length,
     // nearly: half a texel of the finest raster there; > 0.
     double (*step_m)(const void *user, struct vec3 direction, double reach_m);
-    // An altitude that no ground within `reach_m` (along the ground) rises above.
-    double (*ceiling_m)(const void *user, struct vec3 direction, double reach_m);
+    // Whether no ground within `reach_m` (along the ground) rises above an altitude; false also
+    // where that is not known.
+    bool (*is_below)(const void *user, struct vec3 direction, double reach_m, double altitude_m);
     void (*look)(const void *user, struct vec3 direction, struct reference_look *look);
 };
 

@@ -126,6 +126,22 @@ static double bound_noise(const void *user, struct vec3 up, double angle_rad)
     return s->noise.desc.has_sea ? fmax(bound, 0) : bound;
 }
 
+// With noise, without looking at octaves: the table of bounds, or data and the most above them.
+static double bound_coarsely(const struct terrain_ceiling *ceiling, struct vec3 up,
+                             double angle_rad)
+{
+    const struct surface *s = ceiling->surface;
+    const double reach_m = angle_rad * s->radius_m;
+    const double data = bound_data(ceiling, 0, up, angle_rad);
+    const struct noise_ground ground = noise_ground_at(&s->noise, up);
+    return data + noise_find_most(&s->noise, &ground, reach_m);
+}
+
+static struct ceiling_cells open_cells(const struct terrain_ceiling *ceiling)
+{
+    return (struct ceiling_cells){ceiling->cells.slots, bound_noise, ceiling};
+}
+
 double terrain_ceiling_m(const struct terrain_ceiling *ceiling, struct vec3 direction,
                          double angle_rad)
 {
@@ -133,8 +149,28 @@ double terrain_ceiling_m(const struct terrain_ceiling *ceiling, struct vec3 dire
     if (!noise_is_there(&ceiling->surface->noise)) {
         return bound_data(ceiling, 0, up, angle_rad); // 0: where no layer is
     }
-    struct ceiling_cells cells = ceiling->cells;
-    cells.user = ceiling;
-    cells.bound = bound_noise;
+    const struct ceiling_cells cells = open_cells(ceiling);
     return ceiling_cells_ask(&cells, up, angle_rad);
+}
+
+bool terrain_ceiling_is_below(const struct terrain_ceiling *ceiling, struct vec3 direction,
+                              double angle_rad, double altitude_m)
+{
+    const struct surface *s = ceiling->surface;
+    const struct vec3 up = vec3_normalize(direction);
+    if (altitude_m > surface_max_altitude(s)) {
+        return true;
+    }
+    if (!noise_is_there(&s->noise)) {
+        return bound_data(ceiling, 0, up, angle_rad) < altitude_m;
+    }
+    const bool is_small = angle_rad < 0.2; // larger ones have many cells
+    if (is_small && (double)surface_bounds_around(s, up, angle_rad).max < altitude_m) {
+        return true;
+    }
+    if (!s->is_invented && bound_coarsely(ceiling, up, angle_rad) < altitude_m) {
+        return true;
+    }
+    const struct ceiling_cells cells = open_cells(ceiling);
+    return is_small && ceiling_cells_are_below(&cells, up, angle_rad, altitude_m);
 }

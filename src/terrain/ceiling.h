@@ -28,4 +28,8 @@ void terrain_ceiling_finish(struct terrain_ceiling *ceiling);
 double terrain_ceiling_m(const struct terrain_ceiling *ceiling, struct vec3 direction,
                          double angle_rad);
 
+// Whether none does, as far as is known: quicker where the answer is clear.
+bool terrain_ceiling_is_below(const struct terrain_ceiling *ceiling, struct vec3 direction,
+                              double angle_rad, double altitude_m);
+
 #endif // TERRAIN_CEILING_H

@@ -97,8 +97,17 @@ static double ask_cell(const struct ceiling_cells *cells, const struct cell *cel
     return value;
 }
 
-double ceiling_cells_ask(const struct ceiling_cells *cells, struct vec3 up, double angle_rad)
+struct neighbourhood {
+    struct vec3 up;
+    double angle_rad;
+};
+
+// The highest of the cells that it touches; the first that is not below `enough_m` will do.
+static double ask_until(const struct ceiling_cells *cells, const struct neighbourhood *around,
+                        double enough_m)
 {
+    const struct vec3 up = around->up;
+    const double angle_rad = around->angle_rad;
     if (angle_rad > WIDEST_RAD) {
         return cells->bound(cells->user, up, angle_rad);
     }
@@ -124,7 +133,21 @@ double ceiling_cells_ask(const struct ceiling_cells *cells, struct vec3 up, doub
     for (cell.row = first[1]; cell.row <= last[1]; cell.row++) {
         for (cell.column = first[0]; cell.column <= last[0]; cell.column++) {
             highest = fmax(highest, ask_cell(cells, &cell));
+            if (highest >= enough_m) {
+                return highest;
+            }
         }
     }
     return highest;
+}
+
+bool ceiling_cells_are_below(const struct ceiling_cells *cells, struct vec3 up, double angle_rad,
+                             double altitude_m)
+{
+    return ask_until(cells, &(struct neighbourhood){up, angle_rad}, altitude_m) < altitude_m;
+}
+
+double ceiling_cells_ask(const struct ceiling_cells *cells, struct vec3 up, double angle_rad)
+{
+    return ask_until(cells, &(struct neighbourhood){up, angle_rad}, INFINITY);
 }

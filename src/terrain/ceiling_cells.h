@@ -10,6 +10,7 @@
 #include "base/vec3.h"
 
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 // A cell's name and its value; the first is kept as its exclusive or with the second, so that a
@@ -29,6 +30,11 @@ struct ceiling_cells {
 // TRL_ERROR_MEMORY.
 TRL_MUST_USE trl_result ceiling_cells_init(const trl_context *ctx, struct ceiling_cells *cells);
 void ceiling_cells_finish(const trl_context *ctx, struct ceiling_cells *cells);
+
+// Whether no ground within the angle rises above an altitude, as the cells know; the first that
+// knows otherwise ends it.
+bool ceiling_cells_are_below(const struct ceiling_cells *cells, struct vec3 up, double angle_rad,
+                             double altitude_m);
 
 // The same bound from the cells that the neighbourhood touches: up to nine, each no wider than it.
 double ceiling_cells_ask(const struct ceiling_cells *cells, struct vec3 up, double angle_rad);

@@ -492,6 +492,13 @@ struct noise_rise noise_find_rise(const struct terrain_noise *noise,
     return rise;
 }
 
+double noise_find_most(const struct terrain_noise *noise, const struct noise_ground *ground,
+                       double reach_m)
+{
+    const double amplitude = ground->amplitude_m + noise->steepest_spread * reach_m;
+    return noise_find_reach(noise, amplitude, fmax(ground->ridged - RIDGED_SLACK, 0)).up_m;
+}
+
 static void bind_map(const struct terrain_noise *noise, const struct anchor *anchor,
                      struct gpu_program *program)
 {

@@ -119,6 +119,8 @@ struct noise_rise {
     int octaves;
     double rise_m, most_m;
 };
+double noise_find_most(const struct terrain_noise *noise, const struct noise_ground *ground,
+                       double reach_m); // the latter alone, whatever data resolve
 struct noise_rise noise_find_rise(const struct terrain_noise *noise,
                                   const struct noise_place *place,
                                   const struct noise_around *around);

@@ -42,6 +42,12 @@ static double dome_ceiling(const void *user, struct vec3 direction, double reach
     return away <= 1.01 * (dome_m + reach_m) ? dome_m : 0;
 }
 
+static bool is_below_dome(const void *user, struct vec3 direction, double reach_m,
+                          double altitude_m)
+{
+    return dome_ceiling(user, direction, reach_m) < altitude_m;
+}
+
 static double fine_step(const void *user, struct vec3 direction, double reach_m)
 {
     (void)user;
@@ -67,7 +73,7 @@ static struct reference_surface make_dome(void)
     return (struct reference_surface){.highest_m = dome_m,
                                       .altitude_m = dome_altitude,
                                       .step_m = fine_step,
-                                      .ceiling_m = dome_ceiling,
+                                      .is_below = is_below_dome,
                                       .look = dome_look};
 }
 
@@ -147,6 +153,12 @@ static double wavy_ceiling(const void *user, struct vec3 direction, double reach
     return 190;
 }
 
+static bool is_below_wavy(const void *user, struct vec3 direction, double reach_m,
+                          double altitude_m)
+{
+    return wavy_ceiling(user, direction, reach_m) < altitude_m;
+}
+
 static double wavy_clearance(const struct reference_way *way, double t)
 {
     const struct vec3 at = vec3_add(way->from_m, vec3_scale(way->direction, t));
@@ -172,7 +184,7 @@ static void grazing_rays_meet_the_first_crest(void **state)
                                             .highest_m = 190,
                                             .altitude_m = wavy_altitude,
                                             .step_m = wavy_step,
-                                            .ceiling_m = wavy_ceiling,
+                                            .is_below = is_below_wavy,
                                             .look = dome_look};
     struct random_stream random = random_stream_for(5, 0, 0);
     int met = 0, passed = 0;
@@ -255,6 +267,12 @@ static double level_ceiling(const void *user, struct vec3 direction, double reac
     return *(const double *)user;
 }
 
+static bool is_below_level(const void *user, struct vec3 direction, double reach_m,
+                           double altitude_m)
+{
+    return level_ceiling(user, direction, reach_m) < altitude_m;
+}
+
 static void level_look(const void *user, struct vec3 direction, struct reference_look *look)
 {
     (void)user;
@@ -279,7 +297,7 @@ static void a_level_surface_is_a_larger_sphere(void **state)
                                             .highest_m = plateau_m,
                                             .altitude_m = level_altitude,
                                             .step_m = fine_step,
-                                            .ceiling_m = level_ceiling,
+                                            .is_below = is_below_level,
                                             .look = level_look};
     const struct reference_scene scenes[2] = {{.medium = &medium, .surface = &level},
                                               {.medium = &larger}};

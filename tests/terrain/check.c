@@ -37,6 +37,11 @@ static double level_ceiling(const void *user, struct vec3 direction, double reac
     return *(const double *)user;
 }
 
+static bool is_below(const void *user, struct vec3 direction, double reach_m, double altitude_m)
+{
+    return level_ceiling(user, direction, reach_m) < altitude_m;
+}
+
 static void level_look(const void *user, struct vec3 direction, struct reference_look *look)
 {
     (void)user;
@@ -50,7 +55,7 @@ static struct reference_surface make_level(const double *altitude_m)
                                       .highest_m = *altitude_m,
                                       .altitude_m = level_altitude,
                                       .step_m = level_step,
-                                      .ceiling_m = level_ceiling,
+                                      .is_below = is_below,
                                       .look = level_look};
 }
 
