@@ -40,7 +40,28 @@ static trl_result read_dataset(const struct places *places, GDALDatasetH dataset
     return error == CE_None ? TRL_OK : TRL_ERROR_IO;
 }
 
-trl_result picture_read(const struct places *places, const char *relative, struct picture *out)
+static trl_result read_opacity(const struct places *places, GDALDatasetH dataset,
+                               struct picture *out)
+{
+    const GDALColorTableH palette = GDALGetRasterColorTable(GDALGetRasterBand(dataset, 1));
+    const trl_result result = read_dataset(places, dataset, out);
+    if (result != TRL_OK || out->bands != 1 || !palette) {
+        return TRL_ERROR_IO;
+    }
+    uint8_t opacity[256] = {0};
+    for (int i = 0; i < GDALGetColorEntryCount(palette) && i < 256; i++) {
+        opacity[i] = (uint8_t)GDALGetColorEntry(palette, i)->c4;
+    }
+    for (size_t i = 0; i < (size_t)out->width * out->height; i++) {
+        out->pixels[i] = opacity[out->pixels[i]];
+    }
+    return TRL_OK;
+}
+
+static trl_result read_with(const struct places *places, const char *relative,
+                            trl_result (*read)(const struct places *, GDALDatasetH,
+                                               struct picture *),
+                            struct picture *out)
 {
     *out = (struct picture){0};
     char *path = source_path(places, relative);
@@ -53,7 +74,7 @@ trl_result picture_read(const struct places *places, const char *relative, struc
     gdal_catch_begin(&catcher, places->ctx);
     const GDALDatasetH dataset =
         GDALOpenEx(path, GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, DRIVERS, NULL, NULL);
-    trl_result result = dataset ? read_dataset(places, dataset, out) : TRL_ERROR_IO;
+    trl_result result = dataset ? read(places, dataset, out) : TRL_ERROR_IO;
     if (dataset) {
         GDALClose(dataset);
     }
@@ -68,6 +89,17 @@ trl_result picture_read(const struct places *places, const char *relative, struc
     }
     mem_free(places->ctx, path);
     return result;
+}
+
+trl_result picture_read(const struct places *places, const char *relative, struct picture *out)
+{
+    return read_with(places, relative, read_dataset, out);
+}
+
+trl_result picture_read_opacity(const struct places *places, const char *relative,
+                                struct picture *out)
+{
+    return read_with(places, relative, read_opacity, out);
 }
 
 trl_result picture_read_globe(const struct places *places, const char *relative,

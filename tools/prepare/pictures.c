@@ -122,8 +122,26 @@ static trl_result prepare_lights(const struct places *places)
     return result;
 }
 
+// A day's clouds over the globe, as cover. Without the picture there is none.
+static trl_result prepare_clouds(const struct places *places)
+{
+    if (!source_exists(places, CLOUD_COVER_4K)) {
+        return TRL_OK;
+    }
+    struct picture picture;
+    trl_result result = picture_read_opacity(places, CLOUD_COVER_4K, &picture);
+    if (result == TRL_OK) {
+        result = picture_write(places, "clouds.tif", &picture);
+    }
+    picture_finish(places, &picture);
+    return result;
+}
+
 trl_result earth_prepare_pictures(const struct places *places)
 {
-    const trl_result result = prepare_colour(places);
-    return result == TRL_OK ? prepare_lights(places) : result;
+    trl_result result = prepare_colour(places);
+    if (result == TRL_OK) {
+        result = prepare_lights(places);
+    }
+    return result == TRL_OK ? prepare_clouds(places) : result;
 }

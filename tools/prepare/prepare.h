@@ -17,6 +17,7 @@
 #define BLUE_MARBLE_4K "package/example/img/earth-blue-marble.jpg"
 #define CITY_LIGHTS_4K "package/example/img/earth-night.jpg"
 #define WATER_COARSE "package/example/img/earth-water.png"
+#define CLOUD_COVER_4K "package/example/clouds/clouds.png"
 #define WORLD_8K "usr/share/games/flightgear/Models/Astro/Textures/world_%c%d.png"
 
 // The land grid: 2 arc minutes, column 0 at 180 W, row 0 at 90 N.
@@ -43,6 +44,9 @@ TRL_MUST_USE trl_result picture_read(const struct places *places, const char *re
 // The same of a whole globe, which is twice as wide as high.
 TRL_MUST_USE trl_result picture_read_globe(const struct places *places, const char *relative,
                                            struct picture *out);
+// One band: how opaque each pixel is, of a picture whose palette says so.
+TRL_MUST_USE trl_result picture_read_opacity(const struct places *places, const char *relative,
+                                             struct picture *out);
 // As a GeoTIFF of the whole globe, column 0 at 180 W.
 TRL_MUST_USE trl_result picture_write(const struct places *places, const char *name,
                                       const struct picture *picture);
@@ -83,7 +87,7 @@ void land_finish(const struct places *places, struct land *land);
 TRL_MUST_USE trl_result earth_prepare_globe(const struct places *places);
 // The inset in Colorado.
 TRL_MUST_USE trl_result earth_prepare_colorado(const struct places *places);
-// The best colour and night light pictures that are there.
+// The best colour and night light pictures that are there, and the cover of clouds where it is.
 TRL_MUST_USE trl_result earth_prepare_pictures(const struct places *places);
 
 // A whole globe of one kind of number, column 0 at 180 W, row 0 at 90 N: one of the two arrays,
