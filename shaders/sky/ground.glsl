@@ -18,6 +18,20 @@ uniform sampler2D u_lights;
 uniform sampler2D u_region; // the same: albedo around; a: sky view factor
 #endif
 
+#ifdef CLOUDS
+uniform sampler2D u_cloud_shade; // what clouds leave of the star, see cloud/march.h
+
+float cloud_shade()
+{
+    return texelFetch(u_cloud_shade, ivec2(gl_FragCoord.xy), 0).x;
+}
+#else
+float cloud_shade()
+{
+    return 1.0;
+}
+#endif
+
 struct Ground {
     float distance_m;
     float altitude_m;
@@ -48,7 +62,7 @@ Ground find_ground(out Ray ray)
     ground.distance_m = distance_m;
     ground.altitude_m = position.w;
     ground.normal = normal.xyz;
-    ground.star_visible = normal.w;
+    ground.star_visible = normal.w * cloud_shade();
     ground.albedo = albedo.rgb * albedo.rgb;
     vec4 region = texelFetch(u_region, ivec2(gl_FragCoord.xy), 0);
     ground.region = region.rgb * region.rgb;
@@ -69,7 +83,7 @@ Ground find_ground(out Ray ray)
     ground.distance_m = ray.ground_m;
     ground.altitude_m = 0.0;
     ground.normal = normalize(u_eye_up * u_eye.x + ray.direction * ray.ground_m);
-    ground.star_visible = 1.0;
+    ground.star_visible = cloud_shade();
     return ground;
 }
 #endif

@@ -149,6 +149,9 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
         result = ground_init(out->gpu, &ground, &out->ground);
     }
     if (result == TRL_OK) {
+        result = clouds_init(out->gpu, desc->scene, &out->clouds);
+    }
+    if (result == TRL_OK) {
         result = frame_set_sky_model(out, desc->sky_model);
     }
     if (result == TRL_OK) {
@@ -186,6 +189,7 @@ void frame_finish(struct frame *frame)
             sky_finish(&frame->skies[m]);
         }
         space_finish(&frame->space);
+        clouds_finish(&frame->clouds);
         ground_finish(&frame->ground);
     }
     gpu_destroy(&frame->gpu);
@@ -276,19 +280,24 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
         shading.sun_direction = moon.sight.direction;
     }
     trl_result result = ground_draw(&frame->ground, &shading, shown->time_s, &frame->clock);
-    const struct sky_view view = {.camera = camera,
-                                  .highest_m = highest_m,
-                                  .surface = ground_surface(&frame->ground),
-                                  .spheres = frame->spheres,
+    struct sky_view view = {.camera = camera,
+                            .highest_m = highest_m,
+                            .surface = ground_surface(&frame->ground),
+                            .spheres = frame->spheres,
 
-                                  .shadow = ground_shadow(&frame->ground),
-                                  .moon = moon,
-                                  // Only the star's shadow is marched through the air.
-                                  .air = moon.is_main ? TRL_AIR_TABLE : frame->air,
-                                  .target = &frame->radiance_target};
+                            .shadow = ground_shadow(&frame->ground),
+                            .moon = moon,
+                            // Only the star's shadow is marched through the air.
+                            .air = moon.is_main ? TRL_AIR_TABLE : frame->air,
+                            .target = &frame->radiance_target};
+    clouds_announce(&frame->clouds, sky, &view);
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "sky maps");
         result = sky_prepare(sky, &view);
+    }
+    if (result == TRL_OK && clouds_are_drawn(&frame->clouds, sky)) {
+        frame_clock_part(&frame->clock, "clouds' shade");
+        result = clouds_shade(&frame->clouds, sky, &view);
     }
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "sky");
@@ -297,6 +306,10 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "stars");
         result = space_draw(&frame->space, &view, shown->sidereal_rad);
+    }
+    if (result == TRL_OK && clouds_are_drawn(&frame->clouds, sky)) {
+        frame_clock_part(&frame->clock, "clouds");
+        result = clouds_draw(&frame->clouds, sky, &view);
     }
     if (result == TRL_OK) {
         const struct edges_source source = {.view = &view,

@@ -7,6 +7,7 @@
 //     ground    -> position, depth, albedo, normal, lights      src/terrain
 //     sky       -> radiance: ground lit, air, sun               src/sky
 //     stars     -> radiance: what is beyond the air, added      src/sky/space.h
+//     clouds    -> radiance: clouds mixed in                    clouds.h
 //     edges     -> radiance: silhouettes made smooth            edges.h
 //     exposure  -> EV100 and factor                             exposure.h
 //     tone      -> picture                                      tone.h
@@ -17,6 +18,7 @@
 // Rows run from the bottom to the top, as GL has them.
 
 #include "frame/clock.h"
+#include "frame/clouds.h"
 #include "frame/edges.h"
 #include "frame/exposure.h"
 #include "frame/ground.h"
@@ -55,6 +57,7 @@ struct frame {
     trl_air air;
     uint32_t wavelengths, orders;
     trl_rayleigh_desc rayleigh;
+    struct clouds clouds;
     struct edges edges;
     struct exposure exposure;
     struct tone tone;

@@ -55,6 +55,9 @@ TRL_MUST_USE trl_result scene_read_ocean(const struct scene_node *root, struct o
 // stars of the root; they may be missing.
 TRL_MUST_USE trl_result scene_read_stars(const struct scene_node *root, struct trl_scene *out);
 
+// clouds of the root; they may be missing. The medium's radii are known.
+TRL_MUST_USE trl_result scene_read_clouds(const struct scene_node *root, struct trl_scene *out);
+
 // bodies of the root, which may be missing, and those of a view.
 TRL_MUST_USE trl_result scene_read_bodies(const struct scene_node *root, struct trl_scene *out);
 TRL_MUST_USE trl_result scene_read_body_places(const struct scene_node *node,

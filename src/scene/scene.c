@@ -56,9 +56,9 @@ static trl_result read_name(const struct scene_node *root, struct trl_scene *sce
 static trl_result read_root(const struct scene_node *root, struct trl_scene *scene)
 {
     // Editors find the schema by "$schema"; it says nothing to the reader.
-    const char *const keys[] = {"$schema",    "terrella", "name",  "star",      "planet",
-                                "atmosphere", "surface",  "views", "sky_model", "bodies",
-                                "rayleigh",   "stars",    "ocean", NULL};
+    const char *const keys[] = {"$schema",    "terrella", "name",   "star",      "planet",
+                                "atmosphere", "surface",  "views",  "sky_model", "bodies",
+                                "rayleigh",   "stars",    "clouds", "ocean",     NULL};
     const struct scene_node schema = scene_node_member(root, "$schema");
     const char *ignored = NULL;
     trl_result result = scene_node_check_keys(root, keys);
@@ -85,6 +85,9 @@ static trl_result read_root(const struct scene_node *root, struct trl_scene *sce
     }
     if (result == TRL_OK) {
         result = scene_read_ocean(root, &scene->ocean);
+    }
+    if (result == TRL_OK) {
+        result = scene_read_clouds(root, scene);
     }
     if (result == TRL_OK) {
         result = scene_read_stars(root, scene);
@@ -191,6 +194,7 @@ void trl_scene_destroy(trl_scene **scene)
     for (size_t i = 0; i < s->view_count; i++) {
         mem_free(ctx, s->view_names[i]);
     }
+    mem_free(ctx, s->clouds.map_path);
     mem_free(ctx, s->stars.file);
     mem_free(ctx, s->stars.path);
     mem_free(ctx, s->name);

@@ -4,6 +4,7 @@
 #define SCENE_SCENE_H
 // A scene as read from its file: physics, surface layers, named views.
 
+#include "cloud/cloud.h"
 #include "ocean/ocean.h"
 #include "scatter/medium.h"
 #include "sky/body_light.h"
@@ -113,6 +114,7 @@ struct trl_scene {
     size_t biome_count;
     struct scene_biome biomes[SCENE_MAX_BIOMES];
     struct ocean_desc ocean;
+    struct cloud_desc clouds;
     struct scene_stars stars;
     size_t body_count;
     struct scene_body bodies[SCENE_MAX_BODIES];

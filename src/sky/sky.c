@@ -69,3 +69,8 @@ bool sky_is_settled(const struct sky *sky)
 {
     return !sky->self || !sky->model->is_settled || sky->model->is_settled(sky->self);
 }
+
+struct sky_air sky_get_air(const struct sky *sky, const struct sky_view *view)
+{
+    return sky->model->get_air ? sky->model->get_air(sky->self, view) : (struct sky_air){0};
+}

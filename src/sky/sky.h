@@ -68,7 +68,9 @@ struct sky_view {
     struct sky_surface surface;
     struct sky_spheres spheres;
 
-    struct sky_shadow shadow; // of the body that is main, else of the star
+    const struct gpu_texture *cloud_shade; // R32F, see cloud/march.h; NULL: no clouds
+    double cloud_top_m;                    // altitude of the highest
+    struct sky_shadow shadow;              // of the body that is main, else of the star
     struct sky_moon moon;
     bool is_added; // to what the target holds
     trl_air air;
@@ -77,6 +79,17 @@ struct sky_view {
 
 // An eye below this altitude counts as there, for every model (AERIAL_MIN_ALTITUDE_M is the same).
 #define SKY_MIN_ALTITUDE_M 0.5
+
+// What a program that includes sky/spectral/air.glsl takes from a model that has such air.
+struct sky_air {
+    int peaked_count;
+    bool has_march; // with the define MARCH
+    // Sets what sky/ray.glsl needs, with `whole` also the maps of the air and of light on the
+    // ground.
+    void (*bind)(const void *self, const struct sky_view *view, bool whole,
+                 struct gpu_program *program);
+    const void *self;
+};
 
 struct sky_model {
     // TRL_ERROR_GPU, TRL_ERROR_MEMORY, TRL_ERROR_UNSUPPORTED (a texture format), what solving may
@@ -94,6 +107,8 @@ struct sky_model {
     bool (*is_settled)(const void *self);
     // The body whose light counts in this view. NULL: the model knows no light but the star's.
     struct sky_moon (*find_moon)(const void *self, const struct camera *camera, double highest_m);
+    // NULL: the model has no such air. For a view that was drawn.
+    struct sky_air (*get_air)(const void *self, const struct sky_view *view);
 };
 
 extern const struct sky_model sky_spectral; // spectral.c
@@ -118,5 +133,7 @@ TRL_MUST_USE trl_result sky_change(struct sky *sky, const struct sky_desc *desc)
 // None where the model knows none.
 struct sky_moon sky_find_moon(const struct sky *sky, const struct camera *camera, double highest_m);
 bool sky_is_settled(const struct sky *sky);
+// `bind` is NULL where the model has none.
+struct sky_air sky_get_air(const struct sky *sky, const struct sky_view *view);
 
 #endif // SKY_SKY_H

@@ -26,8 +26,8 @@ struct spectral {
     struct gpu *gpu;
     struct spectral_maps maps;
     struct sky_pixels pixels;
-    // By trl_air and whether there is an eclipse; made when first asked for.
-    struct spectral_programs programs[TRL_AIR_MARCH + 1][2];
+    // By trl_air and whether there are an eclipse and clouds; made when first asked for.
+    struct spectral_programs programs[TRL_AIR_MARCH + 1][2][2];
     struct sky_eclipse eclipse;
     struct sky_march march;
     struct moonlight moonlight;
@@ -41,8 +41,8 @@ static const char *const SOURCE_NAMES[] = {"u_source0", "u_source1", "u_source2"
 
 static void finish_programs(struct spectral *sky)
 {
-    for (int i = 0; i < 2 * (TRL_AIR_MARCH + 1); i++) {
-        struct spectral_programs *programs = &sky->programs[i / 2][i % 2];
+    for (int i = 0; i < 4 * (TRL_AIR_MARCH + 1); i++) {
+        struct spectral_programs *programs = &sky->programs[i / 4][i / 2 % 2][i % 2];
         gpu_program_finish(&programs->air);
         gpu_program_finish(&programs->star);
         gpu_program_finish(&programs->ground_bare);
@@ -53,7 +53,7 @@ static void finish_programs(struct spectral *sky)
 
 // What a picture has beside the air of the tables.
 struct shades {
-    bool has_march, has_eclipse;
+    bool has_march, has_eclipse, has_clouds;
 };
 
 struct variant {
@@ -67,7 +67,7 @@ static trl_result make_program(const struct spectral *sky, struct shades shades,
 {
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", sky->maps.atmosphere->peaked.count);
-    const char *defines[5] = {peaked};
+    const char *defines[6] = {peaked};
     size_t count = 1;
     if (variant->define) {
         defines[count++] = variant->define;
@@ -78,9 +78,13 @@ static trl_result make_program(const struct spectral *sky, struct shades shades,
     if (shades.has_eclipse) {
         defines[count++] = "ECLIPSE";
     }
-    if (variant->program == &sky->programs[shades.has_march][shades.has_eclipse].ground_surface &&
+    if (variant->program == &sky->programs[shades.has_march][shades.has_eclipse][shades.has_clouds]
+                                 .ground_surface &&
         sky->pixels.has_sea) {
         defines[count++] = "SEA";
+    }
+    if (shades.has_clouds) {
+        defines[count++] = "CLOUDS";
     }
     const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
                                           .fragment = variant->fragment,
@@ -92,7 +96,8 @@ static trl_result make_program(const struct spectral *sky, struct shades shades,
 
 static trl_result make_programs(struct spectral *sky, struct shades shades)
 {
-    struct spectral_programs *p = &sky->programs[shades.has_march][shades.has_eclipse];
+    struct spectral_programs *p =
+        &sky->programs[shades.has_march][shades.has_eclipse][shades.has_clouds];
     const struct variant variants[] = {
         {&p->air, "sky/spectral/sky.frag", NULL},
         {&p->star, "sky/spectral/sky.frag", "STAR"},
@@ -226,7 +231,8 @@ static struct shades find_shades(const struct spectral *sky, const struct sky_vi
     const bool has_eclipse = sky_eclipse_find(&sky->pixels, view->camera) >= 0;
     return (struct shades){.has_march = view->air == TRL_AIR_MARCH &&
                                         (has_eclipse || !sky_view_is_bare(view)),
-                           .has_eclipse = has_eclipse};
+                           .has_eclipse = has_eclipse,
+                           .has_clouds = view->cloud_shade != NULL};
 }
 
 // What shadows need more than the tables.
@@ -234,7 +240,7 @@ static trl_result prepare_shades(struct spectral *sky, const struct sky_view *vi
 {
     const struct shades shades = find_shades(sky, view);
     trl_result result = TRL_OK;
-    if (!sky->programs[shades.has_march][shades.has_eclipse].is_made) {
+    if (!sky->programs[shades.has_march][shades.has_eclipse][shades.has_clouds].is_made) {
         result = make_programs(sky, shades);
     }
     return result == TRL_OK && view->air == TRL_AIR_MARCH ? spectral_maps_add_source(&sky->maps)
@@ -247,7 +253,8 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
     const struct camera *camera = view->camera;
     const double radius_m = sky_pixels_eye_radius(&sky->pixels, camera);
     const double sun_mu = vec3_dot(vec3_normalize(camera->position_m), camera->sun_direction);
-    const struct spectral_eye eye = {radius_m, sun_mu, view->highest_m};
+    const double highest_m = fmax(view->highest_m, view->cloud_top_m);
+    const struct spectral_eye eye = {radius_m, sun_mu, highest_m};
     trl_result result = adopt_solved(sky);
     if (result == TRL_OK) {
         result = prepare_shades(sky, view);
@@ -313,7 +320,35 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
     if (shades.has_eclipse) {
         sky_eclipse_set(&sky->pixels, &sky->eclipse, view->camera, program);
     }
+    if (shades.has_clouds && kind == SKY_KIND_GROUND) {
+        gpu_program_set_texture(program, "u_cloud_shade", view->cloud_shade);
+    }
     return sky_pixels_draw(&sky->pixels, program, kind, view);
+}
+
+static void bind_air(const void *self, const struct sky_view *view, bool whole,
+                     struct gpu_program *program)
+{
+    const struct spectral *sky = self;
+    const struct atmosphere *a = sky->maps.atmosphere;
+    sky_pixels_set_view(&sky->pixels, program, view);
+    if (whole) {
+        sky_set_bands(program, &a->bands, a->optics, 0);
+        sky_set_primaries(program, (const double[]){1, 1, 1});
+        spectral_maps_bind(&sky->maps, program);
+    }
+    if (whole && find_shades(sky, view).has_march) {
+        sky_march_bind(&sky->march, program);
+    }
+}
+
+static struct sky_air spectral_get_air(const void *self, const struct sky_view *view)
+{
+    const struct spectral *sky = self;
+    return (struct sky_air){.peaked_count = sky->maps.atmosphere->peaked.count,
+                            .has_march = find_shades(sky, view).has_march,
+                            .bind = bind_air,
+                            .self = self};
 }
 
 // In eclipses the star shows as far as its corona outshines 1 % of a sky in totality.
@@ -323,7 +358,8 @@ static trl_result spectral_draw(void *self, const struct sky_view *view)
 {
     struct spectral *sky = self;
     const struct shades shades = find_shades(sky, view);
-    struct spectral_programs *programs = &sky->programs[shades.has_march][shades.has_eclipse];
+    struct spectral_programs *programs =
+        &sky->programs[shades.has_march][shades.has_eclipse][shades.has_clouds];
     struct gpu_program *ground =
         sky_view_is_bare(view) ? &programs->ground_bare : &programs->ground_surface;
     const bool has_corona = shades.has_eclipse && sky->eclipse.corona > 0;
@@ -355,4 +391,5 @@ const struct sky_model sky_spectral = {.create = spectral_create,
                                        .draw = spectral_draw,
                                        .change = spectral_change,
                                        .is_settled = spectral_is_settled,
-                                       .find_moon = spectral_find_moon};
+                                       .find_moon = spectral_find_moon,
+                                       .get_air = spectral_get_air};

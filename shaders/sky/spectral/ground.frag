@@ -13,6 +13,8 @@
 // validate: PEAKED_COUNT 1; MOON
 // validate: PEAKED_COUNT 1; SURFACE; MOON
 // validate: PEAKED_COUNT 1; SURFACE; SEA
+// validate: PEAKED_COUNT 1; SURFACE; MARCH; CLOUDS
+// validate: PEAKED_COUNT 1; CLOUDS
 
 #include "shared/sky_view.glsl"
 #include "sky/ground.glsl"

@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Clouds along the ray of every second pixel each way, in one march with the air (Michelic 2019,
+// Eq. 15 to 20). Out comes what a picture without clouds is mixed with:
+//
+//     radiance = rgb + (1 - a) * radiance      linear sRGB, cd m^-2; a = 1 - transmittance
+//
+// The picture already has the air's light A as if there were no clouds. With A(s) that of the air
+// up to s and the clouds' transmittance T(s), what is seen is
+//
+//     clouds + sum of (A(s_n) - A(s_n-1)) T_n + T (picture - A(s_end))
+//
+// which is Eq. 20, as its in-scattered light of a slice, dimmed by the air before it, is just the
+// difference of what the maps have of both its ends.
+// validate: PEAKED_COUNT 1
+// validate: PEAKED_COUNT 0
+// validate: PEAKED_COUNT 1; SURFACE; MARCH
+
+#include "cloud/field.glsl"
+#include "sky/spectral/air.glsl"
+#include "sky/spectral/colour.glsl"
+
+uniform vec4 u_ground_light; // as in sky/spectral/ground.frag
+uniform vec2 u_light_texel;
+uniform sampler2D u_sunlight;
+uniform sampler2D u_skylight;
+uniform sampler2D u_rising;
+uniform vec2 u_picture; // pixels
+
+#ifdef SURFACE
+uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
+#endif
+
+layout(location = 0) out vec4 out_clouds;
+
+const int SLICES = 8; // of the air in each part of the ray
+const int STEPS = 24; // at most, in a slice
+const int LEAST_STEPS = 4;
+const float OPAQUE = 0.01;
+
+// Further orders of scattering inside the cloud, as octaves of which each is dimmer, less dimmed on
+// its way and less peaked than the one before (Wrenninge, Kulla and Lundqvist 2013), and what has
+// lost all direction, which falls with the depth as a diffusion does.
+const float OCTAVE_LIGHT = 0.5;
+const float OCTAVE_DEPTH = 0.4;
+const float OCTAVE_NARROW = 0.5;
+const float DIFFUSE = 3.5;
+
+struct Part {
+    float from, to; // m
+    int layer;
+};
+
+// Where a ray is below a height over the sphere: x and y; x > y: nowhere.
+vec2 ball(Ray ray, float height)
+{
+    float r = u_eye.x;
+    float along = r * ray.mu;
+    float pass = r * length(cross(u_eye_up, ray.direction));
+    float radius = u_planet.x + height;
+    bool outside = u_eye.w > 0.5;
+    float inside2 =
+        outside ? (radius - pass) * (radius + pass)
+                : along * along + (height - u_eye.y) * (2.0 * u_planet.x + u_eye.y + height);
+    float chord = sqrt(max(inside2, 0.0));
+    // The root nearer to 0 from the product of both, which is h^2 + 2 R h of the difference.
+    float product = (u_eye.y - height) * (2.0 * u_planet.x + u_eye.y + height);
+    float far = along > 0.0 ? -along - chord : -along + chord;
+    float near = product / (abs(far) > 1.0e-3 ? far : 1.0e-3);
+    return inside2 <= 0.0 ? vec2(1.0, -1.0) : vec2(min(near, far), max(near, far));
+}
+
+// The parts of a ray in a layer: before the sphere of its base, and beyond.
+Part part_of(Ray ray, int index, float end)
+{
+    Part part;
+    part.layer = index / 2;
+    vec2 top = ball(ray, u_cloud_shell[part.layer].y);
+    vec2 base = ball(ray, u_cloud_shell[part.layer].x);
+    bool meets_base = base.x < base.y;
+    bool is_second = index % 2 == 1;
+    part.from = is_second ? base.y : top.x;
+    part.to = is_second || !meets_base ? top.y : base.x;
+    part.from = max(part.from, 0.0);
+    part.to = min(part.to, end);
+    if (top.x > top.y || (is_second && !meets_base)) {
+        part.to = part.from;
+    }
+    return part;
+}
+
+// Of what lights clouds around a place, in the bands.
+struct Lights {
+    vec4 sun, above, below;
+    float sun_mu;
+};
+
+Lights lights_at(vec3 place)
+{
+    float altitude_m = cloud_altitude(place);
+    vec3 up = normalize(u_eye_up * u_eye.x + place);
+    float altitude = centre(
+        clamp((altitude_m - u_ground_light.x) / (u_ground_light.y - u_ground_light.x), 0.0, 1.0),
+        u_ground_light.w);
+    Lights lights;
+    lights.sun_mu = dot(up, u_sun);
+    float lowest = sky_map_lowest_sun(u_planet.x, altitude_m, u_disc.x, u_disc.y);
+    float sun = sky_map_sunlight(lights.sun_mu, lowest, u_ground_light.z);
+    vec2 day = vec2(centre(sun_coordinate(lights.sun_mu), u_light_texel.y), altitude);
+    lights.sun = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
+    lights.above = exp(textureLod(u_skylight, day, 0.0)) * (1.0 / SHARED_PI);
+    lights.below = exp(textureLod(u_rising, day, 0.0)) * (1.0 / SHARED_PI);
+    return lights;
+}
+
+// Spreads the steps' beginnings, so that what is left of them is noise and not lines: a sequence of
+// low discrepancy over the picture (Jimenez 2014).
+float spread_begin()
+{
+    return 0.25 +
+           0.5 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+}
+
+// What the light toward the eye is per unit of the star's irradiance and of radiance from above and
+// below.
+struct Shares {
+    float sun, above, below;
+};
+
+Shares shares_at(int layer, vec3 place, float cover, Lights lights, CloudPoint point, vec3 phases,
+                 float width)
+{
+    float depth = cloud_sun_depth(layer, place, cover, lights.sun_mu, point.height, width);
+    // How thick the cloud around is, from a look at a box of half the layer's height.
+    float thick_m = u_cloud_shell[layer].y - u_cloud_shell[layer].x;
+    float around =
+        cloud_coarse(layer, place, cover, cloud_level(layer, max(0.5 * thick_m, width))).y;
+    float thick = CLOUD_DIFFUSE_DEPTH * around * 0.7 * thick_m;
+    float returned = thick / (1.0 + thick);
+    Shares shares;
+    float octave2 = OCTAVE_DEPTH * OCTAVE_DEPTH;
+    shares.sun = phases.x * exp(-depth) + OCTAVE_LIGHT * phases.y * exp(-OCTAVE_DEPTH * depth) +
+                 OCTAVE_LIGHT * OCTAVE_LIGHT * phases.z * exp(-octave2 * depth) +
+                 DIFFUSE / (4.0 * SHARED_PI) * (0.5 + 0.5 * lights.sun_mu) * returned /
+                     (1.0 + CLOUD_DIFFUSE_DEPTH * depth);
+    // Radiance between two lit sides runs linearly with the depth.
+    float high = clamp(point.height, 0.0, 1.0);
+    shares.above = (1.0 + thick * high) / (2.0 + thick);
+    shares.below = 1.0 - shares.above;
+    return shares;
+}
+
+void main()
+{
+    vec2 pixel = min(2.0 * floor(gl_FragCoord.xy), u_picture - 1.0) + 0.5;
+    vec2 uv = pixel / u_picture;
+    Ray ray = make_pixel_ray(uv);
+    float end = 1.0e30;
+#ifdef SURFACE
+    vec4 position = texelFetch(u_position, ivec2(pixel), 0);
+    float distance_m = length(position.xyz);
+    bool is_ground = position.w > -1.0e8;
+    if (is_ground) {
+        ray = make_ray(position.xyz / max(distance_m, 1.0e-6));
+        end = distance_m;
+    }
+#else
+    bool is_ground = ray.meets_ground;
+    end = is_ground ? ray.ground_m : end;
+#endif
+    if (!is_ground) {
+        ray.meets_ground = false;
+        ray.end_m = max(ray.begin_m, ray.chord_m - u_eye.x * ray.mu);
+    }
+    vec3 phases = vec3(cloud_phase(ray.nu, 1.0), cloud_phase(ray.nu, OCTAVE_NARROW),
+                       cloud_phase(ray.nu, OCTAVE_NARROW * OCTAVE_NARROW));
+    float begin = spread_begin();
+    float pixel_rad = u_disc.z;
+    float left = 1.0;        // transmittance of the clouds so far
+    vec4 bands = vec4(0.0);  // of the clouds
+    vec3 air = vec3(0.0);    // XYZ of the air, dimmed
+    vec3 before = vec3(0.0); // of the air up to here, as without clouds
+    float here = 0.0;
+    for (int n = 0; n < 2 * u_cloud_layers; n++) {
+        // The nearest part that begins here or beyond.
+        Part part;
+        part.from = 1.0e30;
+        part.to = 1.0e30;
+        part.layer = 0;
+        for (int k = 0; k < 2 * u_cloud_layers; k++) {
+            Part other = part_of(ray, k, end);
+            if (other.to > other.from && other.from >= here && other.from < part.from) {
+                part = other;
+            }
+        }
+        if (part.from > 0.9e30 || left < OPAQUE) {
+            break;
+        }
+        vec3 light = air_before(ray, part.from).scattered;
+#ifdef MARCH
+        light *= share_before(uv, part.from);
+#endif
+        air += (light - before) * left;
+        before = light;
+        float near = part.from;
+        float length_m = part.to - part.from;
+        vec4 shown = air_before(ray, near).transmittance;
+        for (int slice = 1; slice <= SLICES; slice++) {
+            float x = float(slice) / float(SLICES);
+            float far = part.from + length_m * x * x * x;
+            vec3 middle = ray.direction * (0.5 * (near + far));
+            float width = 0.5 * (near + far) * pixel_rad;
+            float weather = cloud_cover(part.layer, middle, width);
+            Lights lights = lights_at(middle);
+            float texel = cloud_texel(part.layer);
+            float usual = max(max(0.4 * texel, (far - near) / float(STEPS)),
+                              min(width, (far - near) / float(LEAST_STEPS)));
+            float level = cloud_level(part.layer, max(width, 0.5 * usual));
+            // Where steps are longer than what is in them varies, they would only make noise.
+            float offset = 0.5 + (begin - 0.5) * min(4.0 * texel / usual, 1.0);
+            float s = near;
+            float left_before = left;
+            Shares sum = Shares(0.0, 0.0, 0.0);
+            for (int i = 0; i < STEPS; i++) {
+                float step_m = min(usual, far - s);
+                if (step_m <= 0.0 || left < OPAQUE) {
+                    break;
+                }
+                vec3 place = ray.direction * (s + offset * step_m);
+                float cover = cloud_gathered(part.layer, place, weather, level);
+                CloudPoint point = cloud_point(part.layer, place, cover, level);
+                float depth = point.extinction * step_m;
+                if (depth > 1.0e-5) {
+                    Shares shares =
+                        shares_at(part.layer, place, cover, lights, point, phases, width);
+                    float dimmed = exp(-depth);
+                    float weight = left * (1.0 - dimmed);
+                    sum.sun += shares.sun * weight;
+                    sum.above += shares.above * weight;
+                    sum.below += shares.below * weight;
+                    left *= dimmed;
+                }
+                s += point.may_be_near ? step_m : max(step_m, u_cloud_volume.z * texel);
+            }
+            Air ahead = air_before(ray, far);
+            light = ahead.scattered;
+#ifdef MARCH
+            light *= share_before(uv, far);
+#endif
+            air += (light - before) * (0.5 * (left_before + left));
+            before = light;
+            bands += (lights.sun * sum.sun + lights.above * sum.above + lights.below * sum.below) *
+                     (0.5 * (shown + ahead.transmittance));
+            shown = ahead.transmittance;
+            near = far;
+        }
+        here = part.to;
+    }
+    left = left < OPAQUE ? 0.0 : left;
+    vec4 joined = join_radiance(bands, air - before * left);
+    out_clouds = vec4(joined.rgb, 1.0 - left);
+}

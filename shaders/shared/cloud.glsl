@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+//
+// Density and light of clouds, from what the noise volume, the weather and the height say.
+// Noise values are evenly distributed over [0, 1], so that a part `cover` of them is above
+// 1 - cover. A place that is looked at from afar stands for a box of values: `noise` is their mean,
+// and they are taken as even over noise +- spread (0: a point). Heights are parts of the layer.
+// docs/physics.md, section 28.
+#ifndef SHARED_CLOUD_GLSL
+#define SHARED_CLOUD_GLSL
+
+#include "shared/shared.glsl"
+
+// The finer noise of the edges is the same volume in tiles that are smaller by this, which no small
+// number of tiles makes whole.
+#define CLOUD_DETAIL_TILES 6.137
+// Noise beyond the edge at which a cloud is as dense as it gets.
+#define CLOUD_EDGE 0.12
+
+// Michelic 2019, Eq. 13: 0 at the base and the top, 1 at `peak`; the parabola is his where that is
+// in the middle, else each side is stretched.
+SHARED_FN Number cloud_height_signal(Number height, Number peak)
+{
+    Number x = shared_clamp(height, 0.0, 1.0);
+    Number side = x < peak ? 1.0 - x / peak : (x - peak) / (1.0 - peak);
+    return 1.0 - side * side;
+}
+
+// Clouds of many heights hide more of the sky than of any level: what of one makes a cover of the
+// whole. The exponent is measured on columns through the layer, 0.6 for cumulus, 1 for flat layers.
+SHARED_FN Number cloud_level_cover(Number cover, Number overlap)
+{
+    return 1.0 - pow(shared_max(1.0 - cover, 1.0e-6), overlap);
+}
+
+// The same volume in tiles that are larger by this gathers clouds into fields, and hides that the
+// tiles repeat. `noise` of it moves the odds of cloud, so that none stays none and all stays all.
+#define CLOUD_FIELD_TILES 5.31
+SHARED_FN Number cloud_gathered_cover(Number cover, Number noise)
+{
+    Number odds = exp(3.0 * (noise - 0.5));
+    return cover * odds / (1.0 - cover + cover * odds);
+}
+
+// The noise with a share `weight` of the finer one, which moves no value out of [0, 1].
+SHARED_FN Number cloud_joint_noise(Number noise, Number finer, Number weight)
+{
+    return noise + weight * (finer - 0.5) * 4.0 * noise * (1.0 - noise);
+}
+
+// Their spread together, around that; values stay in [0, 1] here too.
+SHARED_FN Number cloud_joint_spread(Number spread, Number finer, Number joint)
+{
+    return shared_min(sqrt(spread * spread + finer * finer), shared_min(joint, 1.0 - joint));
+}
+
+// How far clouds and gaps reach along a ray, in a layer of tiles of `scale`, where a box is wider:
+// a fourteenth is the size of the billows that are cut out of the larger shapes.
+SHARED_FN Length cloud_clump(Length thickness, Length scale, Length box)
+{
+    return shared_min(shared_min(0.5 * thickness, 0.07 * scale), box);
+}
+
+// Noise above this is cloud.
+SHARED_FN Number cloud_threshold(Number cover, Number signal)
+{
+    return 1.0 - shared_clamp(cover, 0.0, 1.0) * signal;
+}
+
+// Mean of max(x + u, 0) for u even over [-spread, spread].
+SHARED_FN Number cloud_ramp(Number x, Number spread)
+{
+    Number s = shared_max(spread, 1.0e-4);
+    Number y = shared_clamp(x + s, 0.0, 2.0 * s);
+    return y * y / (4.0 * s) + shared_max(x - s, 0.0);
+}
+
+// Mean density in [0, 1] of a box whose noise is `x` above the threshold in the mean.
+SHARED_FN Number cloud_density(Number x, Number spread)
+{
+    return (cloud_ramp(x, spread) - cloud_ramp(x - CLOUD_EDGE, spread)) * (1.0 / CLOUD_EDGE);
+}
+
+// The part of the box that is cloud.
+SHARED_FN Number cloud_part(Number x, Number spread)
+{
+    Number s = shared_max(spread, 1.0e-4);
+    return shared_clamp((x + s) / (2.0 * s), 0.0, 1.0);
+}
+
+// Extinction that lets through in the mean what a box of clouds and gaps does: with the optical
+// depth t of a way of `length` through cloud, 1 - part + part exp(-t) of it. Without gaps it is the
+// density times `extinction`.
+SHARED_FN PerLength cloud_extinction(Number density, Number part, PerLength extinction,
+                                     Length length)
+{
+    Number inside = density / shared_max(part, 1.0e-4);
+    Number left = 1.0 - part + part * exp(-extinction * inside * length);
+    PerLength broken = -log(shared_max(left, 1.0e-6)) / length;
+    return part > 0.999 ? density * extinction : broken;
+}
+
+// Two lobes of Henyey and Greenstein (1941): droplets scatter forward, and back a little.
+SHARED_FN Number cloud_lobe(Number cos_angle, Number g)
+{
+    Number base = 1.0 + g * g - 2.0 * g * cos_angle;
+    return (1.0 - g * g) / (4.0 * SHARED_PI * base * sqrt(base));
+}
+
+#define CLOUD_FORWARD_G 0.88
+#define CLOUD_BACK_G -0.4
+#define CLOUD_BACK_SHARE 0.04
+
+// 3/4 (1 - g) with the mean cosine of both lobes, 0.83: of the optical depth, what two streams see
+// turned back.
+#define CLOUD_DIFFUSE_DEPTH 0.128
+
+// `narrow` in [0, 1]: what further scatterings have left of both asymmetries.
+SHARED_FN Number cloud_phase(Number cos_angle, Number narrow)
+{
+    return cloud_lobe(cos_angle, CLOUD_FORWARD_G * narrow) * (1.0 - CLOUD_BACK_SHARE) +
+           cloud_lobe(cos_angle, CLOUD_BACK_G * narrow) * CLOUD_BACK_SHARE;
+}
+
+// A part of a step that is as dense all along, integrated: (1 - exp(-t)) / t, without cancellation.
+SHARED_FN Number cloud_mean_transmittance(Number depth)
+{
+    return depth < 0.001 ? 1.0 - 0.5 * depth : (1.0 - exp(-depth)) / shared_max(depth, 1.0e-6);
+}
+
+#endif // SHARED_CLOUD_GLSL

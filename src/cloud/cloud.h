@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef CLOUD_CLOUD_H
+#define CLOUD_CLOUD_H
+// Clouds as a scene describes them: plain data. docs/scenes.md has what the numbers mean.
+
+#include <stddef.h>
+
+enum { CLOUD_MAX_LAYERS = 4 };
+
+// Where between base and top a layer is widest.
+#define CLOUD_CUMULUS_PEAK 0.2
+#define CLOUD_STRATUS_PEAK 0.5
+
+enum cloud_type { CLOUD_CUMULUS, CLOUD_STRATUS, CLOUD_CIRRUS };
+
+struct cloud_layer {
+    enum cloud_type type;
+    double base_m, top_m;    // above the reference sphere
+    double cover;            // of the sky, where the map says 1
+    double extinction_per_m; // where the cloud is densest
+    double scale_m;          // tile of the noise
+};
+
+struct cloud_desc {
+    size_t layer_count; // 0: no clouds
+    struct cloud_layer layers[CLOUD_MAX_LAYERS];
+    double seed;
+    char *map_path; // owned; raster of cover, NULL: none
+};
+
+#endif // CLOUD_CLOUD_H

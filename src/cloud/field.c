@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "cloud/field.h"
+
+#include "shared/cloud.glsl"
+
+// Finer than the volume is between clouds, a map only moves them: 20 km on Earth.
+enum { MAP_MAX_SIDE = 2048 };
+
+static trl_result load_map(const trl_context *ctx, const char *path, struct raster_grid *out)
+{
+    struct raster raster;
+    trl_result result = raster_open(ctx, path, &raster);
+    if (result != TRL_OK) {
+        return result;
+    }
+    if (!raster.is_whole_circle || raster.type != RASTER_UINT8) {
+        result = trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                          "%s: a map of clouds must be of 8 bits and go around the planet", path);
+    } else {
+        result = raster_grid_load(&raster, MAP_MAX_SIDE, out);
+    }
+    raster_finish(&raster);
+    for (size_t i = 0; result == TRL_OK && i < (size_t)out->width * out->height; i++) {
+        const float value = out->values[i] / 255;
+        out->values[i] = value >= 0 ? value : 0; // no data: no clouds
+    }
+    return result;
+}
+
+trl_result cloud_field_init(const trl_context *ctx, const struct cloud_desc *desc,
+                            double ground_radius_m, struct cloud_field *out)
+{
+    *out = (struct cloud_field){.ctx = ctx, .desc = *desc, .ground_radius_m = ground_radius_m};
+    out->desc.map_path = NULL;
+    trl_result result = TRL_OK;
+    if (desc->map_path) {
+        result = load_map(ctx, desc->map_path, &out->map);
+        out->has_map = result == TRL_OK;
+    }
+    if (result == TRL_OK) {
+        result = cloud_volume_init(ctx, (uint32_t)desc->seed, &out->volume);
+    }
+    if (result != TRL_OK) {
+        cloud_field_finish(out);
+    }
+    return result;
+}
+
+void cloud_field_finish(struct cloud_field *field)
+{
+    if (field->volume.ctx) {
+        cloud_volume_finish(&field->volume);
+    }
+    raster_grid_finish(&field->map);
+    *field = (struct cloud_field){0};
+}
+
+double cloud_field_highest_m(const struct cloud_field *field)
+{
+    double highest_m = 0;
+    for (size_t i = 0; i < field->desc.layer_count; i++) {
+        highest_m = fmax(highest_m, field->desc.layers[i].top_m);
+    }
+    return highest_m;
+}
+
+double cloud_field_detail(enum cloud_type type)
+{
+    return type == CLOUD_CUMULUS ? 0.25 : 0.15;
+}
+
+double cloud_field_peak(enum cloud_type type)
+{
+    return type == CLOUD_CUMULUS ? CLOUD_CUMULUS_PEAK : CLOUD_STRATUS_PEAK;
+}
+
+double cloud_field_overlap(enum cloud_type type)
+{
+    return type == CLOUD_CUMULUS ? 0.6 : 1;
+}
+
+double cloud_field_cover(const struct cloud_field *field, size_t layer, struct vec3 position_m)
+{
+    double map = 1;
+    if (field->has_map) {
+        const struct vec3 up = vec3_normalize(position_m);
+        map =
+            raster_grid_sample(&field->map, asin(fmax(-1, fmin(1, up.z))), atan2(up.y, up.x)).value;
+    }
+    const struct cloud_layer *l = &field->desc.layers[layer];
+    return cloud_level_cover(l->cover * map, cloud_field_overlap(l->type));
+}
+
+double cloud_field_extinction(const struct cloud_field *field, size_t layer, struct vec3 position_m,
+                              double level)
+{
+    const struct cloud_layer *l = &field->desc.layers[layer];
+    const double height =
+        (vec3_length(position_m) - field->ground_radius_m - l->base_m) / (l->top_m - l->base_m);
+    const double signal = cloud_height_signal(height, cloud_field_peak(l->type));
+    if (signal <= 0) {
+        return 0;
+    }
+    const double weight = cloud_field_detail(l->type);
+    const double finer_level = level + log(CLOUD_DETAIL_TILES) / log(2);
+    const double at[3] = {position_m.x, position_m.y, position_m.z};
+    double place[3];
+    double finer_place[3];
+    double coarse_place[3];
+    for (int k = 0; k < 3; k++) {
+        place[k] = at[k] / l->scale_m;
+        finer_place[k] = place[k] * CLOUD_DETAIL_TILES;
+        coarse_place[k] = place[k] / CLOUD_FIELD_TILES;
+    }
+    const double noise = cloud_volume_sample(&field->volume, place, level).value;
+    const double finer = cloud_volume_sample(&field->volume, finer_place, finer_level).value;
+    const double joint = cloud_joint_noise(noise, finer, weight);
+    const double spread =
+        cloud_joint_spread(cloud_volume_spread(&field->volume, level),
+                           weight * cloud_volume_spread(&field->volume, finer_level), joint);
+    const double coarse_level = fmax(0, level - log(CLOUD_FIELD_TILES) / log(2));
+    const double cover =
+        cloud_gathered_cover(cloud_field_cover(field, layer, position_m),
+                             cloud_volume_sample(&field->volume, coarse_place, coarse_level).value);
+    const double x = joint - cloud_threshold(cover, signal);
+    const double way_m =
+        cloud_clump(l->top_m - l->base_m, l->scale_m, l->scale_m / CLOUD_SIDE * exp2(level));
+    return cloud_extinction(cloud_density(x, spread), cloud_part(x, spread), l->extinction_per_m,
+                            way_m);
+}

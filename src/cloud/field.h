@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef CLOUD_FIELD_H
+#define CLOUD_FIELD_H
+// The clouds of a scene as a field over space: layers of a noise volume that tiles it, thinned by
+// height and by the weather. In double; shaders/cloud/field.glsl is the same on the GPU.
+
+#include "base/vec3.h"
+#include "cloud/cloud.h"
+#include "cloud/volume.h"
+#include "raster/grid.h"
+
+struct cloud_field {
+    const trl_context *ctx;
+    struct cloud_desc desc; // but for the path
+    double ground_radius_m;
+    struct cloud_volume volume;
+    bool has_map;
+    struct raster_grid map; // of cover, in [0, 1]
+};
+
+// Loads the map, computes or loads the noise. What those return. *out is zeroed on failure.
+TRL_MUST_USE trl_result cloud_field_init(const trl_context *ctx, const struct cloud_desc *desc,
+                                         double ground_radius_m, struct cloud_field *out);
+void cloud_field_finish(struct cloud_field *field);
+
+double cloud_field_highest_m(const struct cloud_field *field); // the uppermost top
+
+// The part of each height that a layer may cover over a place, from the planet's centre.
+double cloud_field_cover(const struct cloud_field *field, size_t layer, struct vec3 position_m);
+
+// Mean extinction, per m, at a place of a box whose side is a texel of the level (0: as fine as
+// there is).
+double cloud_field_extinction(const struct cloud_field *field, size_t layer, struct vec3 position_m,
+                              double level);
+
+// Weight of the finer noise and the place of the greatest width, by type.
+double cloud_field_detail(enum cloud_type type);
+double cloud_field_peak(enum cloud_type type);
+// For cloud_level_cover.
+double cloud_field_overlap(enum cloud_type type);
+
+#endif // CLOUD_FIELD_H

@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "cloud/march.h"
+
+#include "shared/cloud.glsl"
+
+#include <stdio.h>
+
+static trl_result upload_noise(struct cloud_march *m)
+{
+    const struct cloud_volume *v = &m->field->volume;
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "noise of clouds";
+    desc.shape = GPU_SHAPE_3D;
+    desc.format = GPU_FORMAT_RG16F;
+    desc.filter = GPU_FILTER_TRILINEAR;
+    desc.wrap_x = desc.wrap_y = desc.wrap_z = GPU_WRAP_REPEAT;
+    desc.width = desc.height = desc.depth = CLOUD_SIDE;
+    desc.levels = CLOUD_LEVELS;
+    float *texels =
+        mem_alloc(m->gpu->ctx, (size_t)CLOUD_SIDE * CLOUD_SIDE * CLOUD_SIDE, 2 * sizeof *texels);
+    if (!texels) {
+        return TRL_ERROR_MEMORY;
+    }
+    trl_result result = gpu_texture_init(m->gpu, &desc, &m->noise);
+    for (uint32_t level = 0; level < CLOUD_LEVELS && result == TRL_OK; level++) {
+        const struct gpu_region region = gpu_texture_region(&m->noise, level);
+        const size_t count = 2 * (size_t)region.width * region.height * region.depth;
+        for (size_t i = 0; i < count; i++) {
+            texels[i] = (float)v->texels[level][i] / CLOUD_STEPS;
+        }
+        result = gpu_texture_upload(&m->noise, &region, texels);
+    }
+    mem_free(m->gpu->ctx, texels);
+    return result;
+}
+
+static trl_result upload_map(struct cloud_march *m)
+{
+    const struct raster_grid *map = &m->field->map;
+    const float nothing = 0;
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "map of clouds";
+    desc.format = GPU_FORMAT_R16F;
+    desc.filter = GPU_FILTER_TRILINEAR;
+    desc.wrap_x = GPU_WRAP_REPEAT;
+    desc.width = m->field->has_map ? map->width : 1;
+    desc.height = m->field->has_map ? map->height : 1;
+    desc.levels = 0;
+    desc.data = m->field->has_map ? map->values : &nothing;
+    trl_result result = gpu_texture_init(m->gpu, &desc, &m->map);
+    return result == TRL_OK ? gpu_texture_make_mips(&m->map) : result;
+}
+
+trl_result cloud_march_init(struct gpu *gpu, const struct cloud_field *field,
+                            struct cloud_march *out)
+{
+    *out = (struct cloud_march){.gpu = gpu, .field = field};
+    trl_result result = upload_noise(out);
+    if (result == TRL_OK) {
+        result = upload_map(out);
+    }
+    if (result != TRL_OK) {
+        cloud_march_finish(out);
+    }
+    return result;
+}
+
+static void finish_programs(struct cloud_march *m)
+{
+    gpu_program_finish(&m->march);
+    gpu_program_finish(&m->join);
+    gpu_program_finish(&m->shade);
+    m->is_made = false;
+}
+
+static void finish_targets(struct cloud_march *m)
+{
+    gpu_target_finish(&m->clouds_target);
+    gpu_target_finish(&m->shades_target);
+    gpu_texture_finish(&m->clouds);
+    gpu_texture_finish(&m->shades);
+}
+
+void cloud_march_finish(struct cloud_march *march)
+{
+    finish_targets(march);
+    finish_programs(march);
+    gpu_texture_finish(&march->noise);
+    gpu_texture_finish(&march->map);
+    *march = (struct cloud_march){0};
+}
+
+static trl_result make_program(struct gpu *gpu, const char *fragment, const char *const *defines,
+                               struct gpu_program *out)
+{
+    struct gpu_program_desc desc = {
+        .vertex = "lib/fullscreen.vert", .fragment = fragment, .defines = defines};
+    while (defines[desc.define_count]) {
+        desc.define_count++;
+    }
+    return gpu_program_init(gpu, &desc, out);
+}
+
+static trl_result make_programs(struct cloud_march *m, const struct cloud_view *view)
+{
+    const bool is_bare = view->position == NULL;
+    if (m->is_made && m->is_bare == is_bare && m->has_march == view->air->has_march &&
+        m->peaked_count == view->air->peaked_count) {
+        return TRL_OK;
+    }
+    finish_programs(m);
+    char peaked[32];
+    snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", view->air->peaked_count);
+    const char *const surface[] = {is_bare ? NULL : "SURFACE", NULL};
+    const char *march[4] = {peaked};
+    size_t count = 1;
+    if (!is_bare) {
+        march[count++] = "SURFACE";
+    }
+    if (view->air->has_march) {
+        march[count++] = "MARCH";
+    }
+    trl_result result = make_program(m->gpu, "cloud/march.frag", march, &m->march);
+    if (result == TRL_OK) {
+        result = make_program(m->gpu, "cloud/join.frag", surface, &m->join);
+    }
+    if (result == TRL_OK) {
+        result = make_program(m->gpu, "cloud/shade.frag", surface, &m->shade);
+    }
+    m->is_bare = is_bare;
+    m->has_march = view->air->has_march;
+    m->peaked_count = view->air->peaked_count;
+    m->is_made = result == TRL_OK;
+    return result;
+}
+
+static trl_result make_target(struct cloud_march *m, struct gpu_texture_desc *desc,
+                              struct gpu_texture *texture, struct gpu_target *target)
+{
+    desc->filter = GPU_FILTER_NEAREST;
+    const struct gpu_target_desc colors = {
+        .label = desc->label, .color_count = 1, .colors[0].texture = texture};
+    const trl_result result = gpu_texture_init(m->gpu, desc, texture);
+    return result == TRL_OK ? gpu_target_init(m->gpu, &colors, target) : result;
+}
+
+static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *picture)
+{
+    if (m->shades.width == picture->width && m->shades.height == picture->height) {
+        return TRL_OK;
+    }
+    finish_targets(m);
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "shade of clouds";
+    desc.format = GPU_FORMAT_R32F;
+    desc.width = picture->width;
+    desc.height = picture->height;
+    trl_result result = make_target(m, &desc, &m->shades, &m->shades_target);
+    if (result == TRL_OK) {
+        desc.label = "clouds";
+        desc.format = GPU_FORMAT_RGBA32F;
+        desc.width = (picture->width + 1) / 2;
+        desc.height = (picture->height + 1) / 2;
+        result = make_target(m, &desc, &m->clouds, &m->clouds_target);
+    }
+    if (result != TRL_OK) {
+        finish_targets(m);
+    }
+    return result;
+}
+
+// A place in tiles of a size, without the whole ones, so that floats are enough.
+static void set_anchor(float out[4], struct vec3 position_m, double tile_m)
+{
+    const double at[3] = {position_m.x / tile_m, position_m.y / tile_m, position_m.z / tile_m};
+    for (int k = 0; k < 3; k++) {
+        out[k] = (float)(at[k] - floor(at[k]));
+    }
+}
+
+void cloud_march_set_field(const struct cloud_march *m, const struct camera *camera,
+                           struct gpu_program *program)
+{
+    const struct cloud_field *field = m->field;
+    float shell[CLOUD_MAX_LAYERS][4] = {{0}};
+    float grain[CLOUD_MAX_LAYERS][4] = {{0}};
+    float anchor[CLOUD_MAX_LAYERS][4] = {{0}};
+    float finer[CLOUD_MAX_LAYERS][4] = {{0}};
+    float gathered[CLOUD_MAX_LAYERS][4] = {{0}};
+    float spread[CLOUD_LEVELS];
+    for (size_t i = 0; i < field->desc.layer_count; i++) {
+        const struct cloud_layer *l = &field->desc.layers[i];
+        shell[i][0] = (float)l->base_m;
+        shell[i][1] = (float)l->top_m;
+        shell[i][2] = (float)cloud_field_peak(l->type);
+        shell[i][3] = (float)l->cover;
+        grain[i][0] = (float)(1 / l->scale_m);
+        grain[i][1] = (float)l->extinction_per_m;
+        grain[i][2] = (float)cloud_field_detail(l->type);
+        grain[i][3] = (float)cloud_field_overlap(l->type);
+        set_anchor(anchor[i], camera->position_m, l->scale_m);
+        set_anchor(finer[i], camera->position_m, l->scale_m / CLOUD_DETAIL_TILES);
+        set_anchor(gathered[i], camera->position_m, l->scale_m * CLOUD_FIELD_TILES);
+    }
+    for (int level = 0; level < CLOUD_LEVELS; level++) {
+        spread[level] = (float)field->volume.spread[level];
+    }
+    const float volume[4] = {CLOUD_SIDE, CLOUD_LEVELS - 1, CLOUD_BORDER,
+                             field->has_map ? 1.0f : 0.0f};
+    gpu_program_set_int(program, "u_cloud_layers", (int32_t)field->desc.layer_count);
+    gpu_program_set_vec4s(program, "u_cloud_shell", shell[0], CLOUD_MAX_LAYERS);
+    gpu_program_set_vec4s(program, "u_cloud_grain", grain[0], CLOUD_MAX_LAYERS);
+    gpu_program_set_vec4s(program, "u_cloud_anchor", anchor[0], CLOUD_MAX_LAYERS);
+    gpu_program_set_vec4s(program, "u_cloud_detail_anchor", finer[0], CLOUD_MAX_LAYERS);
+    gpu_program_set_vec4s(program, "u_cloud_field_anchor", gathered[0], CLOUD_MAX_LAYERS);
+    gpu_program_set_floats(program, "u_cloud_spread", spread, CLOUD_LEVELS);
+    gpu_program_set_vec4(program, "u_cloud_volume", volume);
+    gpu_program_set_texture(program, "u_cloud_noise", &m->noise);
+    gpu_program_set_texture(program, "u_cloud_map", &m->map);
+}
+
+static void set_position(const struct cloud_view *view, struct gpu_program *program)
+{
+    if (view->position) {
+        gpu_program_set_texture(program, "u_position", view->position);
+    }
+}
+
+static trl_result prepare(struct cloud_march *m, const struct cloud_view *view)
+{
+    const trl_result result = make_programs(m, view);
+    return result == TRL_OK ? fit_targets(m, view->target) : result;
+}
+
+trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view)
+{
+    const trl_result result = prepare(march, view);
+    if (result != TRL_OK) {
+        return result;
+    }
+    const struct gpu_pass pass = {.target = &march->shades_target};
+    view->air->bind(view->air->self, false, &march->shade);
+    cloud_march_set_field(march, view->camera, &march->shade);
+    set_position(view, &march->shade);
+    gpu_pass_begin(march->gpu, &pass);
+    return gpu_draw_fullscreen(&march->shade, "clouds");
+}
+
+trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *view)
+{
+    trl_result result = prepare(march, view);
+    if (result != TRL_OK) {
+        return result;
+    }
+    const float picture[2] = {(float)view->target->width, (float)view->target->height};
+    const struct gpu_pass clouds = {.target = &march->clouds_target};
+    view->air->bind(view->air->self, true, &march->march);
+    cloud_march_set_field(march, view->camera, &march->march);
+    set_position(view, &march->march);
+    gpu_program_set_vec2(&march->march, "u_picture", picture);
+    gpu_pass_begin(march->gpu, &clouds);
+    result = gpu_draw_fullscreen(&march->march, "clouds");
+    if (result == TRL_OK) {
+        const struct gpu_pass join = {.target = view->target,
+                                      .state = {.blend = GPU_BLEND_PREMULTIPLIED}};
+        set_position(view, &march->join);
+        gpu_program_set_texture(&march->join, "u_clouds", &march->clouds);
+        gpu_pass_begin(march->gpu, &join);
+        result = gpu_draw_fullscreen(&march->join, "clouds");
+    }
+    return result;
+}

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef CLOUD_MARCH_H
+#define CLOUD_MARCH_H
+// Draws clouds into a picture that has all else, and their shade before it. docs/physics.md,
+// section 28.
+//
+//     in   position   RGBA32F  of the ground (frame/ground.h), or none for a bare sphere
+//          radiance   RGBA32F  as the sky and what is beyond the air left it
+//     out  shade      R32F     what clouds leave of the star's light on the ground of a pixel
+//          clouds     RGBA32F  of every second pixel: light, 1 - transmittance; scratch
+//          radiance            with clouds
+
+#include "base/camera.h"
+#include "cloud/field.h"
+#include "gpu/pass.h"
+
+// The air of the model of the sky: what programs that include sky/spectral/air.glsl need.
+struct cloud_air {
+    int peaked_count;
+    bool has_march; // with shadows in the air
+    // Sets the uniforms of sky/ray.glsl, and with `whole` those of sky/spectral/air.glsl and the
+    // light on the ground.
+    void (*bind)(const void *self, bool whole, struct gpu_program *program);
+    const void *self;
+};
+
+struct cloud_march {
+    struct gpu *gpu;
+    const struct cloud_field *field;
+    struct gpu_texture noise, map;
+    bool is_made; // with the programs for:
+    bool is_bare, has_march;
+    int peaked_count;
+    struct gpu_program march, join, shade;
+    struct gpu_texture clouds, shades; // of the last picture's size
+    struct gpu_target clouds_target, shades_target;
+};
+
+// Uploads noise and map. The field must outlive it. TRL_ERROR_GPU, TRL_ERROR_MEMORY,
+// TRL_ERROR_UNSUPPORTED.
+TRL_MUST_USE trl_result cloud_march_init(struct gpu *gpu, const struct cloud_field *field,
+                                         struct cloud_march *out);
+void cloud_march_finish(struct cloud_march *march);
+
+// The uniforms of cloud/field.glsl.
+void cloud_march_set_field(const struct cloud_march *march, const struct camera *camera,
+                           struct gpu_program *program);
+
+struct cloud_view {
+    const struct camera *camera;
+    const struct gpu_texture *position; // NULL: bare sphere
+    const struct gpu_target *target;
+    const struct cloud_air *air;
+};
+
+// Before the sky: fills `shades`.
+TRL_MUST_USE trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view);
+// After it.
+TRL_MUST_USE trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *view);
+
+#endif // CLOUD_MARCH_H

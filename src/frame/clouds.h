@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef FRAME_CLOUDS_H
+#define FRAME_CLOUDS_H
+// The scene's clouds in the frame: hands them the air of the model of the sky. A model without such
+// air draws none, which is told once.
+
+#include "cloud/march.h"
+#include "scene/scene.h"
+#include "sky/sky.h"
+
+struct clouds {
+    const trl_context *ctx;
+    struct cloud_field *field; // owned; NULL: the scene has none
+    struct cloud_march march;
+    bool is_told;
+};
+
+// TRL_ERROR_IO, TRL_ERROR_INVALID (the map); as cloud_march_init.
+TRL_MUST_USE trl_result clouds_init(struct gpu *gpu, const struct trl_scene *scene,
+                                    struct clouds *out);
+void clouds_finish(struct clouds *clouds);
+
+// There are some, and the model can.
+bool clouds_are_drawn(const struct clouds *clouds, const struct sky *sky);
+
+// Before the model prepares: what the view has of clouds.
+void clouds_announce(struct clouds *clouds, const struct sky *sky, struct sky_view *view);
+// Before the sky is drawn.
+TRL_MUST_USE trl_result clouds_shade(struct clouds *clouds, const struct sky *sky,
+                                     const struct sky_view *view);
+// After all that is behind.
+TRL_MUST_USE trl_result clouds_draw(struct clouds *clouds, const struct sky *sky,
+                                    const struct sky_view *view);
+
+#endif // FRAME_CLOUDS_H

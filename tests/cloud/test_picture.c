@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Clouds in pictures of a bare sphere with thin air.
+#include "../frame/fixture.h"
+#include <terrella/renderer.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 48, HEIGHT = 32, FLOATS = 4 * WIDTH * HEIGHT };
+static const double DEGREE = 3.14159265358979323846 / 180;
+
+static const char scene_format[] =
+    "{\"terrella\": 1, \"name\": \"cloudy\","
+    " \"star\": {\"spectral_irradiance\": 1.5, \"angular_radius_deg\": 0.27},"
+    " \"planet\": {\"radius_m\": 6371000, \"ground_albedo\": 0.1},"
+    " \"atmosphere\": {\"height_m\": 60000, \"constituents\": [{\"name\": \"air\","
+    "  \"scattering_per_m\": {\"power_law\": {\"at_nm\": 550, \"value\": 1e-5,"
+    "   \"exponent\": -4}}, \"profile\": {\"exponential\": {\"scale_height_m\": 8000}},"
+    "  \"phase\": \"rayleigh\"}]}%s}";
+
+static trl_view look(double altitude_m, double pitch_deg)
+{
+    trl_view view = trl_view_default();
+    view.altitude_m = altitude_m;
+    view.pitch_rad = pitch_deg * DEGREE;
+    view.vertical_fov_rad = 50 * DEGREE;
+    view.sun_mode = TRL_SUN_LOCAL;
+    view.sun_latitude_or_elevation_rad = 40 * DEGREE;
+    view.sun_longitude_or_azimuth_rad = 0;
+    return view;
+}
+
+// A scene with that text of clouds, and what draws it.
+struct drawer {
+    trl_scene *scene;
+    trl_renderer *renderer;
+};
+
+static struct drawer make_drawer(struct fixture *f, const char *clouds)
+{
+    char text[2048];
+    const int length = snprintf(text, sizeof text, scene_format, clouds);
+    struct drawer d = {0};
+    assert_int_equal(trl_scene_parse(f->ctx, text, (size_t)length, "cloudy", ".", &d.scene),
+                     TRL_OK);
+    trl_renderer_desc desc = trl_renderer_desc_default();
+    desc.scene = d.scene;
+    desc.wavelengths = 4;
+    fixture_skip_without_gl(f, trl_renderer_create(f->ctx, &desc, &d.renderer));
+    return d;
+}
+
+static void finish_drawer(struct drawer *d)
+{
+    trl_renderer_destroy(&d->renderer);
+    trl_scene_destroy(&d->scene);
+}
+
+// Radiance, top row first; free() it.
+static float *draw(const struct drawer *d, const trl_view *view)
+{
+    float *rgba = malloc(FLOATS * sizeof *rgba);
+    assert_non_null(rgba);
+    assert_int_equal(trl_renderer_draw(d->renderer, view, WIDTH, HEIGHT, 0), TRL_OK);
+    assert_int_equal(trl_renderer_read_radiance(d->renderer, rgba), TRL_OK);
+    return rgba;
+}
+
+static double mean_green(const float *rgba)
+{
+    double sum = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        assert_true(isfinite(rgba[4 * i + 1]));
+        sum += (double)rgba[4 * i + 1] / (WIDTH * HEIGHT);
+    }
+    return sum;
+}
+
+#define LAYERS(text) ", \"clouds\": {\"layers\": [" text "]}"
+
+// From below, inside, above and space.
+static const double ALTITUDES_M[] = {2, 1500, 4000, 4e5};
+static const double PITCHES_DEG[] = {20, 0, -20, -60};
+
+static void without_cover_the_picture_is_as_without_clouds(void **state)
+{
+    struct fixture *f = *state;
+    struct drawer clear = make_drawer(f, "");
+    struct drawer empty = make_drawer(f, LAYERS(""));
+    struct drawer bare = make_drawer(f, LAYERS("{\"cover\": 0}"));
+    for (int v = 0; v < 4; v++) {
+        const trl_view view = look(ALTITUDES_M[v], PITCHES_DEG[v]);
+        float *a = draw(&clear, &view);
+        float *b = draw(&empty, &view);
+        float *c = draw(&bare, &view);
+        assert_memory_equal(a, b, FLOATS * sizeof *a);
+        for (int i = 0; i < FLOATS; i++) {
+            // What slices add and the end takes away again, in floats.
+            if (fabsf(a[i] - c[i]) > 2e-4f * fabsf(a[i]) + 1e-3f) {
+                fail_msg("view %d, value %d: %g, with no cover %g", v, i, (double)a[i],
+                         (double)c[i]);
+            }
+        }
+        free(a);
+        free(b);
+        free(c);
+    }
+    finish_drawer(&clear);
+    finish_drawer(&empty);
+    finish_drawer(&bare);
+}
+
+static void a_picture_does_not_depend_on_what_was_drawn_before(void **state)
+{
+    struct fixture *f = *state;
+    struct drawer d = make_drawer(f, LAYERS("{\"cover\": 0.5}"));
+    const trl_view below = look(2, 20);
+    const trl_view above = look(4000, -20);
+    float *one = draw(&d, &below);
+    float *other = draw(&d, &above);
+    float *two = draw(&d, &below);
+    assert_memory_equal(one, two, FLOATS * sizeof *one);
+    assert_memory_not_equal(one, other, FLOATS * sizeof *one);
+    free(one);
+    free(other);
+    free(two);
+    finish_drawer(&d);
+}
+
+static double brightness_of(const struct drawer *d, double altitude_m, double pitch_deg)
+{
+    const trl_view view = look(altitude_m, pitch_deg);
+    float *rgba = draw(d, &view);
+    const double mean = mean_green(rgba);
+    free(rgba);
+    return mean;
+}
+
+// The ground reflects 0.1, a thick deck some 0.7; between them air is thin.
+static void a_deck_is_bright_from_above_and_dims_the_ground_below(void **state)
+{
+    struct fixture *f = *state;
+    struct drawer clear = make_drawer(f, "");
+    struct drawer deck = make_drawer(f, LAYERS("{\"type\": \"stratus\", \"cover\": 1,"
+                                               " \"base_m\": 600, \"top_m\": 1600}"));
+    for (int v = 2; v < 4; v++) {
+        const double pitch_deg = v == 2 ? -60 : -90;
+        const double ratio = brightness_of(&deck, ALTITUDES_M[v], pitch_deg) /
+                             brightness_of(&clear, ALTITUDES_M[v], pitch_deg);
+        if (!(ratio > 3.5 && ratio < 8)) {
+            fail_msg("view %d: a deck is %.2f times as bright as the ground", v, ratio);
+        }
+    }
+    const double ratio = brightness_of(&deck, 300, -90) / brightness_of(&clear, 300, -90);
+    if (!(ratio > 0.1 && ratio < 0.6)) {
+        fail_msg("below a deck the ground has %.3f of its light", ratio);
+    }
+    finish_drawer(&clear);
+    finish_drawer(&deck);
+}
+
+static void bad_layers_are_told_in_a_line(void **state)
+{
+    struct fixture *f = *state;
+    static const struct {
+        const char *clouds, *message;
+    } CASES[] = {
+        {LAYERS("{\"base_m\": 2000, \"top_m\": 1000}"), "must be 10 m thick at least"},
+        {LAYERS("{\"base_m\": 59000, \"top_m\": 61000}"), "must be"},
+        {LAYERS("{}, {\"type\": \"stratus\"}"), "listed from below and apart"},
+        {", \"clouds\": {}", "missing"},
+    };
+    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        char text[2048];
+        const int length = snprintf(text, sizeof text, scene_format, CASES[i].clouds);
+        trl_scene *scene = NULL;
+        const trl_result result =
+            trl_scene_parse(f->ctx, text, (size_t)length, "cloudy", ".", &scene);
+        if (!strstr(f->last_error, CASES[i].message)) {
+            fail_msg("%s: %s", CASES[i].clouds, f->last_error);
+        }
+        fixture_expect_error(f, result, TRL_ERROR_INVALID, TRL_LOG_ITEM_SCENE);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_layers_are_told_in_a_line),
+        cmocka_unit_test(without_cover_the_picture_is_as_without_clouds),
+        cmocka_unit_test(a_picture_does_not_depend_on_what_was_drawn_before),
+        cmocka_unit_test(a_deck_is_bright_from_above_and_dims_the_ground_below),
+    };
+    return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
+}
