@@ -30,6 +30,8 @@ static const struct bench benches[] = {
      bench_run_terrain_error, NULL},
     {"stream", "rasters larger than their memory: first complete frame, tiles, a flight",
      bench_run_stream, NULL},
+    {"clouds", "clouds over a bare sphere: by cover, from the ground and from space, two sizes",
+     bench_run_clouds, NULL},
     {"schafhitzel-table1", "Earth and Mars, outside and inside, with air and without",
      bench_run_schafhitzel_table1, "Schafhitzel, Falk and Ertl 2007, Table 1"},
     {"schafhitzel-table2", "single scattering on spheres: 3D table against integrals at vertices",

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// What clouds take of a frame: by cover, view and size, over a bare sphere.
+#include "bench.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEFAULT_RUNS = 3, TIMINGS_MAX = 32, COVERS = 3, SIZES = 2, VIEWS = 2, MAX_BYTES = 1 << 20 };
+
+static const double covers[COVERS] = {0.2, 0.5, 0.9};
+static const struct number_size sizes[SIZES] = {{640, 360}, {1280, 720}};
+static const char *const views[VIEWS] = {"ground", "full-disc"};
+
+// The text of a file, to be freed; NULL is reported.
+static char *read_text(const char *path, size_t *length)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = file ? malloc(MAX_BYTES) : NULL;
+    *length = text ? fread(text, 1, MAX_BYTES, file) : 0;
+    if (file) {
+        fclose(file);
+    }
+    if (*length == 0) {
+        report_error(EXIT_FAILED, "bench: %s cannot be read", path);
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
+// The bare sphere with cumulus of that cover.
+static trl_result make_scene(const struct bench_job *job, double cover, trl_scene **out)
+{
+    *out = NULL;
+    char *path = app_find_scene("bare-sphere.json");
+    size_t length = 0;
+    char *text = path ? read_text(path, &length) : NULL;
+    char *cloudy = text ? malloc(length + 128) : NULL;
+    trl_result result = cloudy ? TRL_OK : TRL_ERROR_IO;
+    if (cloudy) {
+        const int head =
+            snprintf(cloudy, 128, "{\"clouds\": {\"layers\": [{\"cover\": %g}]},", cover);
+        const char *rest = memchr(text, '{', length);
+        const size_t left = rest ? length - (size_t)(rest + 1 - text) : 0;
+        memcpy(cloudy + head, rest ? rest + 1 : "", left);
+        result = trl_scene_parse(job->app->ctx, cloudy, (size_t)head + left, "clouds", ".", out);
+    }
+    free(cloudy);
+    free(text);
+    free(path);
+    return result;
+}
+
+static trl_result add_passes(const struct bench_job *job, const trl_renderer *renderer,
+                             const char *name)
+{
+    trl_timing rows[TIMINGS_MAX];
+    const size_t all = trl_renderer_timings(renderer, rows, TIMINGS_MAX);
+    trl_result result = TRL_OK;
+    double sum_ms = 0;
+    for (size_t i = 0; i < all && i < TIMINGS_MAX && result == TRL_OK; i++) {
+        sum_ms += rows[i].gpu_ms;
+        if (strncmp(rows[i].name, "clouds", 6) == 0) {
+            result = bench_add(job->table,
+                               (struct bench_sample){name, rows[i].name, "ms", rows[i].gpu_ms});
+        }
+    }
+    return result == TRL_OK
+               ? bench_add(job->table, (struct bench_sample){name, "passes together", "ms", sum_ms})
+               : result;
+}
+
+struct cloud_case {
+    trl_renderer *renderer;
+    trl_view view;
+    struct number_size size;
+    char name[BENCH_NAME_MAX];
+};
+
+static trl_result draw_case(const struct bench_job *job, const struct cloud_case *c)
+{
+    const int runs = bench_runs(job, DEFAULT_RUNS);
+    trl_result result = TRL_OK;
+    for (int i = 0; i <= runs && result == TRL_OK; i++) {
+        if (!progress_report(&job->app->progress, c->name, (double)i / (runs + 1))) {
+            report_error(EXIT_FAILED, "cancelled while drawing %s", c->name);
+            return TRL_ERROR_CANCELLED;
+        }
+        result = trl_renderer_draw(c->renderer, &c->view, c->size.width, c->size.height, 0);
+        trl_renderer_wait(c->renderer);
+        if (i > 0 && result == TRL_OK) { // the first compiles
+            result = add_passes(job, c->renderer, c->name);
+        }
+    }
+    return result;
+}
+
+static trl_result measure_cover(const struct bench_job *job, double cover)
+{
+    trl_scene *scene = NULL;
+    struct cloud_case c = {0};
+    trl_result result = make_scene(job, cover, &scene);
+    if (result == TRL_OK) {
+        trl_renderer_desc desc = bench_renderer_desc(job, scene);
+        desc.measures_time = true;
+        result = trl_renderer_create(job->app->ctx, &desc, &c.renderer);
+    }
+    for (int i = 0; i < VIEWS * SIZES && result == TRL_OK; i++) {
+        const char *view = views[i / SIZES];
+        c.size = sizes[i % SIZES];
+        snprintf(c.name, sizeof c.name, "cover %g, %s %ux%u", cover, view, c.size.width,
+                 c.size.height);
+        result = trl_scene_view(scene, view, &c.view);
+        if (result == TRL_OK) {
+            result = draw_case(job, &c);
+        }
+    }
+    trl_renderer_destroy(&c.renderer);
+    trl_scene_destroy(&scene);
+    return result;
+}
+
+trl_result bench_run_clouds(const struct bench_job *job)
+{
+    trl_result result = TRL_OK;
+    for (int i = 0; i < COVERS && result == TRL_OK; i++) {
+        result = measure_cover(job, covers[i]);
+    }
+    bench_note(job->table,
+               "The noise is a volume of 128^3 texels of 2 x 16 bits with its mip levels: "
+               "9.6 MB on the GPU and as much in memory.");
+    return result;
+}
