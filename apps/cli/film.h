@@ -36,7 +36,8 @@ struct film {
 // Fails (reported) when nothing can be written there, or there is no ffmpeg.
 enum exit_status film_begin(trl_context *ctx, const struct film_desc *desc, struct film *out);
 
-// Bytes that a frame has: 8-bit sRGB RGBA, or floats of linear RGBA for FILM_EXR; rows from the top.
+// Bytes that a frame has: 8-bit sRGB RGBA, or floats of linear RGBA for FILM_EXR; rows from the
+// top.
 size_t film_frame_bytes(const struct film_desc *desc);
 enum exit_status film_add(struct film *film, const void *pixels);
 

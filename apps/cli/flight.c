@@ -173,8 +173,8 @@ static int clamp_frame(int frame, int frames)
 }
 
 // Lifts the way smoothly above what stands in it: the mean over +-reach frames of the largest lack
-// within +-reach of each is no less than what the frame itself lacks. Both ends are views, and stay.
-// `most_m` has room for a number a frame.
+// within +-reach of each is no less than what the frame itself lacks. Both ends are views, and
+// stay. `most_m` has room for a number a frame.
 struct lift {
     double *lack_m, *most_m;
     int frames, reach;

@@ -243,8 +243,8 @@ static double find_flight_altitude(const struct fly_flight *flight, double arc_r
     return base_m + 0.15 * arc_rad * flight->from.radius_m * arch * arch;
 }
 
-// How far the camera has turned. On a way down it turns late and on a way up early, so that the place
-// that is far below stays in the picture: by a factor of 1000 in height, with the square.
+// How far the camera has turned. On a way down it turns late and on a way up early, so that the
+// place that is far below stays in the picture: by a factor of 1000 in height, with the square.
 static double find_flight_turn(const struct fly_flight *flight, double t)
 {
     const double from_m = fly_camera_altitude_m(&flight->from) - flight->from_ground_m;

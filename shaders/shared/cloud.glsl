@@ -5,7 +5,7 @@
 // Noise values are evenly distributed over [0, 1], so that a part `cover` of them is above
 // 1 - cover. A place that is looked at from afar stands for a box of values: `noise` is their mean,
 // and they are taken as even over noise +- spread (0: a point). Heights are parts of the layer.
-// docs/physics.md, section 28.
+// docs/physics.md, section 29.
 #ifndef SHARED_CLOUD_GLSL
 #define SHARED_CLOUD_GLSL
 

@@ -4,8 +4,8 @@
 #define SHARED_GERSTNER_GLSL
 // Spherical Gerstner waves (Michelic 2019, Section 4, Eq. 7 to 11): each runs from an origin on the
 // planet over the great circles to the place opposite. docs/physics.md, *Waves*, derives what
-// differs: places count from an anchor near them, so that no float holds a distance from the origin;
-// amplitudes fade with Q at both poles of a wave; the normal is exact for many waves.
+// differs: places count from an anchor near them, so that no float holds a distance from the
+// origin; amplitudes fade with Q at both poles of a wave; the normal is exact for many waves.
 //
 // Axes of the anchor: two along the ground, z up. Axes of a place: those of the anchor, turned the
 // shortest way. Holds everywhere but opposite the anchor.
@@ -153,8 +153,8 @@ SHARED_FN GerstnerSum gerstner_add(GerstnerSum s, GerstnerWave w, GerstnerRipple
     return s;
 }
 
-// What is left of an amplitude under a Gaussian window over a pixel, whose sides advance the wave by
-// these angles: the window's deviation is half a side.
+// What is left of an amplitude under a Gaussian window over a pixel, whose sides advance the wave
+// by these angles: the window's deviation is half a side.
 SHARED_FN Number gerstner_weight(Angle along_x, Angle along_y)
 {
     return exp(-0.125 * (along_x * along_x + along_y * along_y));

@@ -3,7 +3,7 @@
 #ifndef CLOUD_MARCH_H
 #define CLOUD_MARCH_H
 // Draws clouds into a picture that has all else, and their shade before it. docs/physics.md,
-// section 28.
+// section 29.
 //
 //     in   position   RGBA32F  of the ground (frame/ground.h), or none for a bare sphere
 //          radiance   RGBA32F  as the sky and what is beyond the air left it

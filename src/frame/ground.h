@@ -80,8 +80,8 @@ TRL_MUST_USE trl_result ground_set_mesher(struct ground *ground, trl_mesher mesh
 TRL_MUST_USE trl_result ground_set_projective(struct ground *ground,
                                               const trl_projective_desc *desc);
 
-// Makes the hemisphere and its tessellated form with another grid, now where they are there already.
-// A failure leaves the old ones.
+// Makes the hemisphere and its tessellated form with another grid, now where they are there
+// already. A failure leaves the old ones.
 TRL_MUST_USE trl_result ground_set_hemisphere(struct ground *ground, uint32_t cells);
 
 // What meshers aim at from now on.

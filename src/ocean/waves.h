@@ -33,8 +33,8 @@ struct waves {
     double rest_square;                // of all shorter waves, beyond them
 };
 
-// `total_square`: mean square slope of the whole surface. The shortest components are left out where
-// they alone would make more than it. TRL_ERROR_MEMORY.
+// `total_square`: mean square slope of the whole surface. The shortest components are left out
+// where they alone would make more than it. TRL_ERROR_MEMORY.
 struct waves_desc {
     const trl_context *ctx;
     const struct ocean_desc *ocean;
@@ -48,7 +48,8 @@ void waves_finish(struct waves *waves);
 double waves_significant_height_m(const struct waves *waves);
 
 // Waves as an eye has them: 28 bytes each, four side by side in seven texels of RGBA32F (their
-// numbers in the order of GerstnerWave), the longest first. What is beyond the count has amplitude 0.
+// numbers in the order of GerstnerWave), the longest first. What is beyond the count has amplitude
+// 0.
 enum { WAVES_MAX_CELLS = 4, WAVES_LANES = 4, WAVES_FIELDS = 7 };
 enum { WAVES_MAX_GROUPS = WAVES_MAX_CELLS * OCEAN_MAX_WAVES / WAVES_LANES };
 struct waves_view {

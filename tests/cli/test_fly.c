@@ -257,8 +257,8 @@ static void a_flight_leads_smoothly_from_view_to_view(void **state)
     }
 }
 
-// Over a plateau heights are counted from it: half way from 100 km to 10 m above it the camera is at
-// their geometric mean (both with 100 m more), not at that of altitudes above the sphere.
+// Over a plateau heights are counted from it: half way from 100 km to 10 m above it the camera is
+// at their geometric mean (both with 100 m more), not at that of altitudes above the sphere.
 static void heights_of_a_flight_are_above_the_ground(void **state)
 {
     (void)state;

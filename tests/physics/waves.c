@@ -106,9 +106,9 @@ static void waves_run_as_in_deep_water(void **state)
     waves_finish(&waves);
 }
 
-// Down to where capillary waves begin (k = 370 per m) the spectrum has 1.1 of the slopes that Cox and
-// Munk saw at 5 m/s and 0.6 at 12: its tail does not know the wind. What is missing, or too much,
-// is made good: the sum is theirs.
+// Down to where capillary waves begin (k = 370 per m) the spectrum has 1.1 of the slopes that Cox
+// and Munk saw at 5 m/s and 0.6 at 12: its tail does not know the wind. What is missing, or too
+// much, is made good: the sum is theirs.
 static void slopes_are_near_those_of_cox_and_munk(void **state)
 {
     for (double wind = 5; wind <= 12; wind += 3.5) {

@@ -103,8 +103,8 @@ static void test_altitudes_are_those_of_the_cpu(void **state)
     destroy_planet(&p);
 }
 
-// Another grid is another mesh of the same ground: a quarter of the vertices, cells twice as wide, so
-// four times the sag; 1 m of the test above is generous by more than that.
+// Another grid is another mesh of the same ground: a quarter of the vertices, cells twice as wide,
+// so four times the sag; 1 m of the test above is generous by more than that.
 static void test_a_grid_of_another_size_is_the_same_ground(void **state)
 {
     struct planet p;
