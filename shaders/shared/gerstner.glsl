@@ -120,7 +120,7 @@ SHARED_STRUCT(GerstnerSum)
     Number lost_square; // mean square slope of what weights have left out
 };
 
-SHARED_FN GerstnerSum gerstner_level()
+SHARED_FN GerstnerSum gerstner_level(void)
 {
     GerstnerSum s;
     s.x = s.y = s.z = 0.0;
