@@ -293,11 +293,59 @@ static void test_detail_of_data_agrees_on_both_sides(void **state)
     surface_finish(&s);
 }
 
+// Shores: octaves fade within 25 m of the sea, which is level.
+static double shore_height(double latitude, double longitude)
+{
+    return 40 * sin(latitude * 0.2) * cos(longitude * 0.17);
+}
+
+static double sea_is_water(double latitude, double longitude)
+{
+    return shore_height(latitude, longitude) < 0 ? 255 : 0;
+}
+
+static void test_no_shore_is_above_the_ceiling(void **state)
+{
+    struct fixture *f = *state;
+    const struct raster_place globe = {-180, 90, 0.5, 720, 360};
+    char paths[2][128];
+    fixture_write_heights(f, "shore", &globe, shore_height, paths[0]);
+    fixture_write_bytes(f, "sea", &globe, sea_is_water, paths[1]);
+    const struct surface_layer_desc layers[] = {
+        {.kind = SURFACE_ELEVATION, .path = paths[0], .scale = 1},
+        {.kind = SURFACE_WATER, .path = paths[1]}};
+    struct surface_desc desc = surface_desc_default();
+    desc.radius_m = 6e6;
+    desc.layers = layers;
+    desc.layer_count = 2;
+    desc.detail = (struct surface_detail){1, 0.2, 0.2};
+    struct surface s;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &s), TRL_OK);
+    assert_true(noise_is_there(&s.noise) && s.noise.desc.full_height_m > 0);
+    check_ceiling(&s);
+    // In the midst of the sea nothing rises: rays step far.
+    struct terrain_ceiling ceiling;
+    assert_int_equal(terrain_ceiling_init(&s, &ceiling), TRL_OK);
+    int level = 0;
+    for (int i = 0; i < 2000; i++) {
+        const struct vec3 at = some_place(i);
+        const bool is_sea = surface_bounds_around(&s, at, 0.5 * DEGREE).max <= 0;
+        const bool is_known = terrain_ceiling_is_below(&ceiling, at, 0.001 * DEGREE, 1e-3);
+        assert_true(!is_known || surface_altitude(&s, at) < 1e-3);
+        level += is_known;
+        assert_true(!is_sea || is_known);
+    }
+    assert_in_range(level, 500, 1100); // nearly half of the globe
+    terrain_ceiling_finish(&ceiling);
+    surface_finish(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_gpu_and_cpu_agree_on_invented_heights),
         cmocka_unit_test(test_no_ground_is_above_the_ceiling),
+        cmocka_unit_test(test_no_shore_is_above_the_ceiling),
         cmocka_unit_test(test_detail_of_data_agrees_on_both_sides),
         cmocka_unit_test(test_gradients_are_those_of_the_heights),
     };
