@@ -244,14 +244,14 @@ static double find_flight_altitude(const struct fly_flight *flight, double arc_r
 }
 
 // How far the camera has turned. On a way down it turns late and on a way up early, so that the
-// place that is far below stays in the picture: by a factor of 1000 in height, with the square.
+// place that is far below stays in the picture: by a factor of 1000 in height, with the cube.
 static double find_flight_turn(const struct fly_flight *flight, double t)
 {
     const double from_m = fly_camera_altitude_m(&flight->from) - flight->from_ground_m;
     const double to_m = fly_camera_altitude_m(&flight->to) - flight->to_ground_m;
     const double fall = log(fmax(from_m, 1.0) / fmax(to_m, 1.0)) / log(1000.0);
-    const double square = t * (fall > 0.0 ? t : 2.0 - t);
-    return mix(t, square, fmin(fabs(fall), 1.0));
+    const double late = fall > 0.0 ? t * t * t : 1.0 - (1.0 - t) * (1.0 - t) * (1.0 - t);
+    return mix(t, late, fmin(fabs(fall), 1.0));
 }
 
 static void set_flight_sun(const struct fly_flight *flight, double t, trl_view *out)
