@@ -50,6 +50,9 @@ static const struct bench benches[] = {
      bench_run_elek_rgb, "Elek and Kmoch 2010, Figure 6"},
     {"michelic-table1", "invented ground by layers of noise and size of the tessellated grid",
      bench_run_michelic_table1, "Michelic 2019, Table 1"},
+    {"michelic-table2",
+     "spherical waves by their number, for a picture of 80 x 80 and a larger one",
+     bench_run_michelic_table2, "Michelic 2019, Table 2"},
     {"pgm-fps", "frames per second of the projective mesher, by grid and screen, three views",
      bench_run_pgm_fps, "Planetary Terrain Rendering (PGM), Section 8"},
 };

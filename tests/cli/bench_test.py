@@ -98,6 +98,10 @@ class Bench(ProgramTest):
                 self.assertGreater(rows[case, "step"]["min"], 0.0)
         self.expect_failure(1, [*words, self.write_scene()], ["no ground", "make data"])
 
+    def test_waves_have_a_scene_of_their_own(self):
+        self.expect_failure(1, ["bench", "michelic-table2", "--scene", self.write_scene()],
+                            ["michelic-table2", "--scene"])
+
     @unittest.skipIf(IS_SLOW, "24 pictures of 1920 x 1080")
     def test_layers_of_noise_by_grids(self):
         scene = copy.deepcopy(THIN_SCENE)

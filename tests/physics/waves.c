@@ -331,6 +331,45 @@ static void an_eye_that_moves_sees_the_same_waves(void **state)
     waves_finish(&waves);
 }
 
+// Under any window the slopes that are shown, in the mean over 200 000 m^2, and those that are told
+// are those of the whole sea.
+static void windows_keep_the_mean_square_slope(void **state)
+{
+    const struct ocean_desc ocean = describe(8, OCEAN_JONSWAP, 60);
+    const struct vec3 eye = {RADIUS_M, 0.3 * RADIUS_M, 0.2 * RADIUS_M};
+    struct waves waves;
+    struct waves_view *view = test_malloc(sizeof *view);
+    make(*state, &ocean, &waves);
+    waves_view_make(&waves, eye, 5, view);
+    const double total = waves.mean_square_slope + waves.rest_square;
+    for (double side_m = 0; side_m < 20; side_m = 2 * side_m + 0.3) {
+        double shown = 0, told = 0;
+        enum { PLACES = 3000 };
+        for (int i = 0; i < PLACES; i++) {
+            // Evenly, by powers of the inverse of the root of x^3 = x + 1.
+            const double x = 450 * (fmod(i * 0.7548776662466927, 1) - 0.5);
+            const double y = 450 * (fmod(i * 0.5698402909980532, 1) - 0.5);
+            const GerstnerPlace p = gerstner_place(x, y, RADIUS_M);
+            GerstnerSum sum = gerstner_level();
+            for (uint32_t w = 0; w < view->count; w++) {
+                const GerstnerWave wave = waves_view_get(view, w);
+                const GerstnerTurn t = gerstner_turn(wave, p);
+                const GerstnerRipple r =
+                    gerstner_ripple(wave, p, RADIUS_M, gerstner_small_angle(t));
+                const double k = wave.wavenumber * side_m;
+                sum = gerstner_add(sum, wave, r, gerstner_weight(k * r.dx, 0.3 * k * r.dy));
+            }
+            shown += (sum.gx * sum.gx + sum.gy * sum.gy) / PLACES;
+            told += (sum.lost_square + waves.rest_square) / PLACES;
+        }
+        // A mean of 3000 squares.
+        assert_true(fabs((shown + told) / total - 1) < 0.05);
+        assert_true(side_m > 0 ? told > waves.rest_square : shown > 0.5 * waves.mean_square_slope);
+    }
+    test_free(view);
+    waves_finish(&waves);
+}
+
 static void seed_tells_the_sea_and_calm_has_none(void **state)
 {
     struct ocean_desc ocean = describe(8, OCEAN_JONSWAP, 30);
@@ -361,6 +400,7 @@ int main(void)
         cmocka_unit_test(anchor_may_be_a_pole),
         cmocka_unit_test(phases_are_exact_after_ten_days),
         cmocka_unit_test(an_eye_that_moves_sees_the_same_waves),
+        cmocka_unit_test(windows_keep_the_mean_square_slope),
         cmocka_unit_test(seed_tells_the_sea_and_calm_has_none),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
