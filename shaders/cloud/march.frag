@@ -222,25 +222,38 @@ void main()
             float left_before = left;
             Shares sum = Shares(0.0, 0.0, 0.0);
             for (int i = 0; i < STEPS; i++) {
-                float step_m = min(usual, far - s);
-                if (step_m <= 0.0 || left < OPAQUE) {
+                // Up to the next step with cloud. Where nothing is skipped by a branch, a loop of its
+                // own keeps light from being looked for in empty air.
+                float step_m = 0.0;
+                float depth = 0.0;
+                float cover = 0.0;
+                vec3 place = middle;
+                CloudPoint point = CloudPoint(0.0, 0.0, false);
+                for (int k = 0; k < STEPS; k++) {
+                    step_m = left < OPAQUE ? 0.0 : min(usual, far - s);
+                    if (step_m <= 0.0) {
+                        break;
+                    }
+                    place = ray.direction * (s + offset * step_m);
+                    cover = cloud_gathered(part.layer, place, weather, level);
+                    point = cloud_point(part.layer, place, cover, level);
+                    depth = point.extinction * step_m;
+                    if (depth > 1.0e-4) {
+                        break;
+                    }
+                    s += point.may_be_near ? step_m : max(step_m, u_cloud_volume.z * texel);
+                }
+                if (step_m <= 0.0) {
                     break;
                 }
-                vec3 place = ray.direction * (s + offset * step_m);
-                float cover = cloud_gathered(part.layer, place, weather, level);
-                CloudPoint point = cloud_point(part.layer, place, cover, level);
-                float depth = point.extinction * step_m;
-                if (depth > 1.0e-5) {
-                    Shares shares =
-                        shares_at(part.layer, place, cover, lights, point, phases, width);
-                    float dimmed = exp(-depth);
-                    float weight = left * (1.0 - dimmed);
-                    sum.sun += shares.sun * weight;
-                    sum.above += shares.above * weight;
-                    sum.below += shares.below * weight;
-                    left *= dimmed;
-                }
-                s += point.may_be_near ? step_m : max(step_m, u_cloud_volume.z * texel);
+                Shares shares = shares_at(part.layer, place, cover, lights, point, phases, width);
+                float dimmed = exp(-depth);
+                float weight = left * (1.0 - dimmed);
+                sum.sun += shares.sun * weight;
+                sum.above += shares.above * weight;
+                sum.below += shares.below * weight;
+                left *= dimmed;
+                s += step_m;
             }
             Air ahead = air_before(ray, far);
             light = ahead.scattered;
