@@ -222,8 +222,8 @@ void main()
             float left_before = left;
             Shares sum = Shares(0.0, 0.0, 0.0);
             for (int i = 0; i < STEPS; i++) {
-                // Up to the next step with cloud. Where nothing is skipped by a branch, a loop of its
-                // own keeps light from being looked for in empty air.
+                // Up to the next step with cloud. Where nothing is skipped by a branch, a loop of
+                // its own keeps light from being looked for in empty air.
                 float step_m = 0.0;
                 float depth = 0.0;
                 float cover = 0.0;
