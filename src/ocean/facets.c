@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "ocean/facets.h"
 
+#include <math.h>
+
 trl_result facets_init(struct gpu *gpu, const struct waves *waves, struct facets *out)
 {
     *out = (struct facets){.gpu = gpu};
@@ -60,7 +62,9 @@ trl_result facets_draw(struct facets *facets, const struct facets_inputs *in)
     if (result != TRL_OK) {
         return result;
     }
-    wave_texture_bind(&facets->waves, program);
+    // No sea is nearer than the eye is high.
+    const double height_m = vec3_length(in->camera->position_m) - facets->waves.waves->radius_m;
+    wave_texture_bind(&facets->waves, fmax(height_m, 0) * pixel_rad, program);
     gpu_program_set_texture(program, "u_position", in->position);
     gpu_program_set_texture(program, "u_albedo", in->albedo);
     gpu_program_set_float(program, "u_pixel_rad", (float)pixel_rad);

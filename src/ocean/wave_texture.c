@@ -4,6 +4,9 @@
 
 #include <math.h>
 
+// WAVES_LEAST_WEIGHT of shaders/ocean/waves.glsl.
+static const double LEAST_WEIGHT = 0.02;
+
 trl_result wave_texture_init(struct gpu *gpu, const struct waves *waves, struct wave_texture *out)
 {
     *out = (struct wave_texture){.gpu = gpu, .waves = waves};
@@ -56,14 +59,38 @@ trl_result wave_texture_update(struct wave_texture *t, struct vec3 eye_m, double
     return result;
 }
 
-void wave_texture_bind(const struct wave_texture *t, struct gpu_program *program)
+// Groups of which a window with sides of at least that leaves something. The others only add to the
+// roughness, which they do here: loops of shaders cost the same whatever is in them.
+static uint32_t count_shown(const struct wave_texture *t, double least_m, double *rest_square)
 {
+    uint32_t shown = t->view->groups;
+    *rest_square = t->waves->rest_square;
+    while (shown > 0) {
+        const uint32_t first = (shown - 1) * WAVES_LANES;
+        const GerstnerWave longest = waves_view_get(t->view, first);
+        if (gerstner_weight(longest.wavenumber * least_m, 0) > LEAST_WEIGHT) {
+            break;
+        }
+        for (uint32_t i = first; i < first + WAVES_LANES; i++) {
+            const GerstnerWave w = waves_view_get(t->view, i);
+            const double steep = w.amplitude * w.wavenumber;
+            *rest_square += 0.5 * steep * steep;
+        }
+        shown--;
+    }
+    return shown;
+}
+
+void wave_texture_bind(const struct wave_texture *t, double least_m, struct gpu_program *program)
+{
+    double rest_square = 0;
+    const uint32_t shown = count_shown(t, least_m, &rest_square);
     const float range[4] = {(float)t->waves->radius_m, (float)vec3_length(t->place),
-                            (float)t->waves->rest_square, 0};
+                            (float)rest_square, 0};
     float local_from_planet[9];
     waves_local_from_planet(t->place, local_from_planet);
     gpu_program_set_texture(program, "u_waves", &t->texture);
-    gpu_program_set_int(program, "u_wave_groups", (int32_t)t->view->groups);
+    gpu_program_set_int(program, "u_wave_groups", (int32_t)shown);
     gpu_program_set_vec4(program, "u_wave_range", range);
     gpu_program_set_mat3(program, "u_wave_local_from_planet", local_from_planet);
 }
