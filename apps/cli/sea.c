@@ -69,13 +69,14 @@ enum { SOLVER_REFERENCE = 1 };
 static const char *const solver_words[] = {"spectral", "reference", NULL};
 
 static const char about[] =
-    "Prints the light that leaves the water of a scene's ocean, or that an eye in it sees,\n"
-    "as CSV: all orders of scattering between a flat surface and the bed. Behind the query\n"
-    "are star_per_sr and sky_per_sr: radiance per irradiance of level water by the sun alone\n"
-    "and by an even sky alone (above the water: remote-sensing reflectance, without what the\n"
-    "surface mirrors; below: with the sky through the surface, without the sun's disc). Then\n"
-    "the irradiances behind the scene's air, in W m^-2 nm^-1, and radiance_W_m2_sr_nm of\n"
-    "both. The path tracer (--solver reference) adds the standard errors of the first two.\n"
+    "Prints the light that leaves the water of a scene's ocean, or that an eye in it\n"
+    "sees, as CSV: all orders of scattering between a flat surface and the bed.\n"
+    "Behind the query are star_per_sr and sky_per_sr: radiance per irradiance of\n"
+    "level water by the sun alone and by an even sky alone (above the water: remote-\n"
+    "sensing reflectance, without what the surface mirrors; below: with the sky\n"
+    "through the surface, without the sun's disc). Then the irradiances behind the\n"
+    "scene's air, in W m^-2 nm^-1, and radiance_W_m2_sr_nm of both. The path tracer\n"
+    "(--solver reference) adds the standard errors of the first two.\n"
     "A LIST is numbers separated by commas; from:to:step stands for a row of them.\n"
     "All combinations of the lists are answered, wavelengths running fastest.\n";
 static const char examples[] =

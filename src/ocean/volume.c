@@ -150,7 +150,8 @@ static double single_path(const struct query *q)
 }
 
 // What light scattered once has more than the orders have of it (Nakajima and Tanaka 1988, J.
-// Quant. Spectrosc. Radiat. Transfer 40).
+// Quant.
+// Spectrosc. Radiat. Transfer 40).
 static double single_correction(const struct query *q)
 {
     const double sun = q->grid.mu[SUN], view = q->grid.mu[VIEW];

@@ -3,8 +3,9 @@
 #ifndef OCEAN_VOLUME_H
 #define OCEAN_VOLUME_H
 // Light in a column of water with a flat surface above and a Lambertian bed below: all orders of
-// scattering, with reflection and refraction by the surface on both ways. docs/physics.md, *Light
-// in the water*.
+// scattering, with reflection and refraction by the surface on both ways. docs/physics.md,
+// *Light in
+// the water*.
 
 #include "ocean/slab.h"
 #include "ocean/water_phase.h"
@@ -29,7 +30,8 @@ struct volume_view {
 
 // Radiance per irradiance of level water from above (sr^-1): by the star, and by a sky of the same
 // radiance everywhere. Above the water that which leaves it, without what the surface mirrors;
-// below, what reaches the eye, with the sky through the surface and without the disc of the star.
+// below,
+// what reaches the eye, with the sky through the surface and without the disc of the star.
 struct volume_light {
     double star, sky;
 };
@@ -52,8 +54,9 @@ struct volume_table {
     double nm[VOLUME_WAVELENGTHS];
     double index, critical; // cosine of the refracted grazing ray
     struct volume_column column[VOLUME_WAVELENGTHS];
-    // [depth][sun][view][order][wavelength]: of cos(order * azimuth), over that power of the
-    // product of the sines of both refracted rays
+    // [depth][sun][view][order][wavelength]: of cos(order * azimuth), over that power of
+    // the product
+    // of the sines of both refracted rays
     float star[VOLUME_DEPTHS][VOLUME_ANGLES][VOLUME_ANGLES][VOLUME_ORDERS][VOLUME_WAVELENGTHS];
     float sky[VOLUME_DEPTHS][VOLUME_ANGLES][VOLUME_WAVELENGTHS]; // [depth][view][wavelength]
 };
