@@ -10,16 +10,11 @@ uniform float u_pixel_rad;
 
 layout(location = 0) out vec4 o_facet;
 
-void main()
+vec4 facet(vec3 position)
 {
-    vec4 position = texelFetch(u_position, ivec2(gl_FragCoord.xy), 0);
-    if (texelFetch(u_albedo, ivec2(gl_FragCoord.xy), 0).a == 0.0) {
-        o_facet = vec4(0.0);
-        return;
-    }
-    GerstnerPlace p = waves_place(position.xyz);
+    GerstnerPlace p = waves_place(position);
     vec3 up = vec3(p.vx, p.vy, p.vz);
-    vec3 way = u_wave_local_from_planet * position.xyz;
+    vec3 way = u_wave_local_from_planet * position;
     float side = length(way) * u_pixel_rad;
     float mu = clamp(-dot(up, way) / max(length(way), 1.0e-6), 1.0e-3, 1.0);
     // A pixel on the ground: its own width across, longer by 1 / mu along the view.
@@ -30,5 +25,16 @@ void main()
     GerstnerNormal turned = gerstner_to_anchor(p, n.x, n.y, n.z);
     // A row times a matrix: the transpose turns local axes back into the planet's.
     vec3 normal = normalize(vec3(turned.x, turned.y, turned.z)) * u_wave_local_from_planet;
-    o_facet = vec4(normal, sum.lost_square);
+    return vec4(normal, sum.lost_square);
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    int count = texelFetch(u_albedo, pixel, 0).a > 0.0 ? 1 : 0;
+    o_facet = vec4(0.0);
+    // No branch: a software rasteriser skips nothing of those, but loops that no pixel enters.
+    for (int i = 0; i < count; i++) {
+        o_facet = facet(texelFetch(u_position, pixel, 0).xyz);
+    }
 }
