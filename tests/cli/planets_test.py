@@ -9,7 +9,7 @@ import unittest
 from process import IS_SLOW, SCENES, ProgramTest, read_png, require_gl
 
 # Earth's rasters are not in the folder of a test.
-NEEDS_DATA = {"earth"}
+NEEDS_DATA = {"earth", "cloudy-earth"}
 # What shows something else than a planet.
 NO_PLANETS = {"bare-sphere", "clear-sky", "eclipse"}
 # By the path tracer all are drawn, from solved air only these: dense air takes seconds a wavelength.
