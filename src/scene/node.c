@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/node.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -351,6 +352,9 @@ trl_result scene_node_number(const struct scene_node *node, const struct scene_r
     const double number = json_number_value(node->value);
     if (!scene_range_holds(range, number)) {
         return scene_node_fail(node, "is %.10g; must be %s", number, allowed);
+    }
+    if (range->is_whole && number != floor(number)) {
+        return scene_node_fail(node, "is %g; must be a whole number", number);
     }
     *out = number;
     return TRL_OK;

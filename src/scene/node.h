@@ -31,6 +31,7 @@ struct scene_node {
 struct scene_range {
     double min, max;
     bool is_min_open, is_max_open;
+    bool is_whole; // of a node: without a fraction
 };
 
 // Reports and returns TRL_ERROR_INVALID.

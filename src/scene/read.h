@@ -63,6 +63,15 @@ TRL_MUST_USE trl_result scene_read_bodies(const struct scene_node *root, struct 
 TRL_MUST_USE trl_result scene_read_body_places(const struct scene_node *node,
                                                const struct trl_scene *scene, trl_view *out);
 
+// Numbers of an object, each of which may be missing and then stays as it is.
+struct scene_number {
+    const char *key;
+    struct scene_range range;
+    double *out;
+};
+TRL_MUST_USE trl_result scene_read_numbers(const struct scene_node *object,
+                                           const struct scene_number *numbers, size_t count);
+
 // Angles of a view, given in degrees, kept in radians.
 struct scene_angle {
     const char *key;

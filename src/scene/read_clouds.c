@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/read.h"
 
-#include <math.h>
-
 // What a layer is when its type is all that is known.
 static const struct cloud_layer DEFAULTS[] = {
     [CLOUD_CUMULUS] = {CLOUD_CUMULUS, 900, 2600, 0.4, 0.04, 8000},
@@ -14,16 +12,14 @@ static const char *const TYPES[] = {"cumulus", "stratus", "cirrus", NULL};
 static trl_result read_layer(const struct scene_node *node, double height_m,
                              struct cloud_layer *out)
 {
-    static const struct scene_range SHARES = {.min = 0, .max = 1};
-    static const struct scene_range EXTINCTIONS = {.min = 0, .max = 1, .is_min_open = true};
-    static const struct scene_range SCALES = {.min = 100, .max = 1e7};
     const struct scene_range altitudes = {.min = 0, .max = height_m};
+    const struct scene_number numbers[] = {
+        {"base_m", altitudes, &out->base_m},
+        {"top_m", altitudes, &out->top_m},
+        {"cover", {.min = 0, .max = 1}, &out->cover},
+        {"extinction_per_m", {.min = 0, .max = 1, .is_min_open = true}, &out->extinction_per_m},
+        {"scale_m", {.min = 100, .max = 1e7}, &out->scale_m}};
     const struct scene_node type = scene_node_member(node, "type");
-    const struct scene_node base = scene_node_member(node, "base_m");
-    const struct scene_node top = scene_node_member(node, "top_m");
-    const struct scene_node cover = scene_node_member(node, "cover");
-    const struct scene_node extinction = scene_node_member(node, "extinction_per_m");
-    const struct scene_node scale = scene_node_member(node, "scale_m");
     size_t index = CLOUD_CUMULUS;
     trl_result result =
         scene_node_check_keys(node, (const char *const[]){"type", "base_m", "top_m", "cover",
@@ -33,19 +29,7 @@ static trl_result read_layer(const struct scene_node *node, double height_m,
     }
     *out = DEFAULTS[index];
     if (result == TRL_OK) {
-        result = scene_node_number_or(&base, &altitudes, &out->base_m);
-    }
-    if (result == TRL_OK) {
-        result = scene_node_number_or(&top, &altitudes, &out->top_m);
-    }
-    if (result == TRL_OK) {
-        result = scene_node_number_or(&cover, &SHARES, &out->cover);
-    }
-    if (result == TRL_OK) {
-        result = scene_node_number_or(&extinction, &EXTINCTIONS, &out->extinction_per_m);
-    }
-    if (result == TRL_OK) {
-        result = scene_node_number_or(&scale, &SCALES, &out->scale_m);
+        result = scene_read_numbers(node, numbers, sizeof numbers / sizeof *numbers);
     }
     if (result == TRL_OK && out->top_m > height_m) {
         result = scene_node_fail(node, "its top is at %g m; must be in the air, %g m high",
@@ -91,19 +75,16 @@ trl_result scene_read_clouds(const struct scene_node *root, struct trl_scene *ou
     if (!clouds.value) {
         return TRL_OK;
     }
-    static const struct scene_range SEEDS = {.min = 0, .max = 4294967295.0};
+    const struct scene_number seed = {
+        "seed", {.min = 0, .max = 4294967295.0, .is_whole = true}, &out->clouds.seed};
     const struct scene_node layers = scene_node_member(&clouds, "layers");
     const struct scene_node map = scene_node_member(&clouds, "map");
-    const struct scene_node seed = scene_node_member(&clouds, "seed");
     const struct scene_node optional = scene_node_member(&clouds, "optional");
     bool is_optional = false;
     trl_result result = scene_node_check_keys(
         &clouds, (const char *const[]){"layers", "map", "optional", "seed", NULL});
     if (result == TRL_OK) {
-        result = scene_node_number_or(&seed, &SEEDS, &out->clouds.seed);
-    }
-    if (result == TRL_OK && out->clouds.seed != floor(out->clouds.seed)) {
-        result = scene_node_fail(&seed, "is %g; must be a whole number", out->clouds.seed);
+        result = scene_read_numbers(&clouds, &seed, 1);
     }
     if (result == TRL_OK) {
         result = scene_node_bool_or(&optional, &is_optional);

@@ -2,26 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/read.h"
 
-#include <math.h>
-
-// A number of an object, which may be missing.
-struct number {
-    const char *key;
-    struct scene_range range;
-    double *out;
-};
-
-static trl_result read_numbers(const struct scene_node *object, const struct number *numbers,
-                               size_t count)
-{
-    trl_result result = TRL_OK;
-    for (size_t i = 0; i < count && result == TRL_OK; i++) {
-        const struct scene_node node = scene_node_member(object, numbers[i].key);
-        result = scene_node_number_or(&node, &numbers[i].range, numbers[i].out);
-    }
-    return result;
-}
-
 // In the order of enum noise_form.
 static const char *const form_names[] = {"plain", "ridged", "eroded", NULL};
 
@@ -50,9 +30,9 @@ trl_result scene_read_noise(const struct scene_node *node, struct scene_noise *o
                                 .amplitude_m = 2500,
                                 .smallest_m = 0.2,
                                 .level_roughness = 0.25};
-    const struct number numbers[] = {
-        {"seed", {.min = 0, .max = 4294967295.0}, &out->seed},
-        {"octaves", {.min = 1, .max = 40}, &out->octaves},
+    const struct scene_number numbers[] = {
+        {"seed", {.min = 0, .max = 4294967295.0, .is_whole = true}, &out->seed},
+        {"octaves", {.min = 1, .max = 40, .is_whole = true}, &out->octaves},
         {"lacunarity", {.min = 1.5, .max = 4}, &out->lacunarity},
         {"hurst", {.min = 0.1, .max = 1.5}, &out->hurst},
         {"continents_m", {.min = 1, .max = 1e9}, &out->continents_m},
@@ -70,14 +50,7 @@ trl_result scene_read_noise(const struct scene_node *node, struct scene_noise *o
         result = read_form(node, &out->form);
     }
     if (result == TRL_OK) {
-        result = read_numbers(node, numbers, sizeof numbers / sizeof *numbers);
-    }
-    // The first two.
-    for (int i = 0; i < 2 && result == TRL_OK; i++) {
-        const struct scene_node number = scene_node_member(node, numbers[i].key);
-        if (*numbers[i].out != floor(*numbers[i].out)) {
-            result = scene_node_fail(&number, "is %g; must be a whole number", *numbers[i].out);
-        }
+        result = scene_read_numbers(node, numbers, sizeof numbers / sizeof *numbers);
     }
     return result;
 }
@@ -90,12 +63,12 @@ static trl_result read_range(const struct scene_node *node, const struct scene_r
         return TRL_OK;
     }
     const struct scene_range feathers = {.min = 0, .max = limits->max, .is_min_open = true};
-    const struct number numbers[] = {{"from", *limits, &out->low},
-                                     {"to", *limits, &out->high},
-                                     {"feather", feathers, &out->feather}};
+    const struct scene_number numbers[] = {{"from", *limits, &out->low},
+                                           {"to", *limits, &out->high},
+                                           {"feather", feathers, &out->feather}};
     const trl_result result =
         scene_node_check_keys(node, (const char *const[]){"from", "to", "feather", NULL});
-    return result == TRL_OK ? read_numbers(node, numbers, 3) : result;
+    return result == TRL_OK ? scene_read_numbers(node, numbers, 3) : result;
 }
 
 static trl_result read_biome(const struct scene_node *node, struct scene_biome *out)
@@ -141,13 +114,13 @@ static trl_result read_climate(const struct scene_node *node, struct scene_clima
         return TRL_OK;
     }
     const struct scene_range degrees = {.min = -273.15, .max = 3000};
-    const struct number numbers[] = {
+    const struct scene_number numbers[] = {
         {"equator_C", degrees, &out->equator_C},
         {"pole_C", degrees, &out->pole_C},
         {"lapse_C_per_km", {.min = 0, .max = 100}, &out->lapse_C_per_km}};
     const trl_result result = scene_node_check_keys(
         node, (const char *const[]){"equator_C", "pole_C", "lapse_C_per_km", NULL});
-    return result == TRL_OK ? read_numbers(node, numbers, 3) : result;
+    return result == TRL_OK ? scene_read_numbers(node, numbers, 3) : result;
 }
 
 trl_result scene_read_biomes(const struct scene_node *surface, struct trl_scene *out)

@@ -2,43 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/read.h"
 
-#include <math.h>
-
 static const struct scene_range per_m = {.min = 0, .max = MEDIUM_MAX_PER_M};
-
-// A number of an object, which may be missing.
-struct number {
-    const char *key;
-    struct scene_range range;
-    double *out;
-};
-
-static trl_result read_numbers(const struct scene_node *object, const struct number *numbers,
-                               size_t count)
-{
-    trl_result result = TRL_OK;
-    for (size_t i = 0; i < count && result == TRL_OK; i++) {
-        const struct scene_node node = scene_node_member(object, numbers[i].key);
-        result = scene_node_number_or(&node, &numbers[i].range, numbers[i].out);
-    }
-    return result;
-}
-
-// A whole number that may be missing.
-static trl_result read_count(const struct scene_node *object, const struct number *number,
-                             uint32_t *out)
-{
-    const struct scene_node node = scene_node_member(object, number->key);
-    double value = *out;
-    trl_result result = scene_node_number_or(&node, &number->range, &value);
-    if (result == TRL_OK && value != floor(value)) {
-        result = scene_node_fail(&node, "is %g; must be a whole number", value);
-    }
-    if (result == TRL_OK) {
-        *out = (uint32_t)value;
-    }
-    return result;
-}
 
 static trl_result read_word_or(const struct scene_node *object, const char *key,
                                const char *const *words, size_t *out)
@@ -54,30 +18,28 @@ static trl_result read_waves(const struct scene_node *node, struct ocean_waves *
     }
     // In the order of enum ocean_spectrum.
     static const char *const words[] = {"jonswap", "pierson_moskowitz", NULL};
-    double from_deg = 240, fetch_km = out->fetch_m / 1000;
+    double from_deg = 240, fetch_km = out->fetch_m / 1000, count = out->count, seed = out->seed;
     size_t spectrum = OCEAN_JONSWAP;
-    const struct number numbers[] = {
+    const struct scene_number numbers[] = {
         {"wind_m_s", {.min = 0, .max = 60}, &out->wind_m_s},
         {"wind_from_deg", {.min = -360, .max = 360}, &from_deg},
         {"fetch_km", {.min = 0, .max = 1e5, .is_min_open = true}, &fetch_km},
         {"mean_square_slope", {.min = 0, .max = 0.5}, &out->mean_square_slope},
-        {"whitecaps", {.min = 0, .max = 100}, &out->whitecaps}};
-    const struct number count = {"count", {.min = 1, .max = OCEAN_MAX_WAVES}, NULL};
-    const struct number seed = {"seed", {.min = 0, .max = 4294967295.0}, NULL};
+        {"whitecaps", {.min = 0, .max = 100}, &out->whitecaps},
+        {"count", {.min = 1, .max = OCEAN_MAX_WAVES, .is_whole = true}, &count},
+        {"seed", {.min = 0, .max = 4294967295.0, .is_whole = true}, &seed}};
     trl_result result = scene_node_check_keys(
         node, (const char *const[]){"wind_m_s", "wind_from_deg", "fetch_km", "spectrum", "count",
                                     "seed", "mean_square_slope", "whitecaps", NULL});
     if (result == TRL_OK) {
-        result = read_numbers(node, numbers, sizeof numbers / sizeof *numbers);
+        result = scene_read_numbers(node, numbers, sizeof numbers / sizeof *numbers);
     }
     if (result == TRL_OK) {
         result = read_word_or(node, "spectrum", words, &spectrum);
     }
     if (result == TRL_OK) {
-        result = read_count(node, &count, &out->count);
-    }
-    if (result == TRL_OK) {
-        result = read_count(node, &seed, &out->seed);
+        out->count = (uint32_t)count;
+        out->seed = (uint32_t)seed;
     }
     out->wind_from_rad = from_deg * SCENE_RADIANS_PER_DEGREE;
     out->fetch_m = fetch_km * 1000;
@@ -118,7 +80,7 @@ static trl_result read_water(const struct scene_node *node, struct ocean_water *
     // In the order of enum ocean_water_kind.
     static const char *const words[] = {"sea", "fresh", NULL};
     size_t kind = OCEAN_SEA;
-    const struct number numbers[] = {
+    const struct scene_number numbers[] = {
         {"chlorophyll_mg_m3", {.min = 0, .max = 1000}, &out->chlorophyll_mg_m3},
         {"mud_g_m3", {.min = 0, .max = 1e5}, &out->mud_g_m3},
         {"dissolved_per_m_440", {.min = 0, .max = 100}, &out->dissolved_per_m_440}};
@@ -133,7 +95,7 @@ static trl_result read_water(const struct scene_node *node, struct ocean_water *
     if (result == TRL_OK) {
         result = read_liquid(node, out);
     }
-    return result == TRL_OK ? read_numbers(node, numbers, sizeof numbers / sizeof *numbers)
+    return result == TRL_OK ? scene_read_numbers(node, numbers, sizeof numbers / sizeof *numbers)
                             : result;
 }
 
@@ -142,13 +104,13 @@ static trl_result read_bed(const struct scene_node *node, struct ocean_bed *out)
     if (!node->value) {
         return TRL_OK;
     }
-    const struct number depth = {"depth_m", {.min = 0, .max = 1e5}, &out->depth_m};
+    const struct scene_number depth = {"depth_m", {.min = 0, .max = 1e5}, &out->depth_m};
     const struct scene_range albedos = {.min = 0, .max = 1};
     const struct scene_node albedo = scene_node_member(node, "albedo");
     trl_result result =
         scene_node_check_keys(node, (const char *const[]){"depth_m", "albedo", NULL});
     if (result == TRL_OK) {
-        result = read_numbers(node, &depth, 1);
+        result = scene_read_numbers(node, &depth, 1);
     }
     return result == TRL_OK && albedo.value ? scene_read_spectrum(&albedo, &albedos, &out->albedo)
                                             : result;
@@ -157,9 +119,9 @@ static trl_result read_bed(const struct scene_node *node, struct ocean_bed *out)
 static trl_result read_gravity(const struct scene_node *root, double *out)
 {
     const struct scene_node planet = scene_node_member(root, "planet");
-    const struct number gravity = {
+    const struct scene_number gravity = {
         "gravity_m_s2", {.min = 0, .max = 1e4, .is_min_open = true}, out};
-    return read_numbers(&planet, &gravity, 1);
+    return scene_read_numbers(&planet, &gravity, 1);
 }
 
 // Open sea in a fresh breeze.

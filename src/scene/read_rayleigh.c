@@ -22,22 +22,19 @@ static trl_result read_count(const struct scene_node *object, const char *key,
     const struct scene_node node = scene_node_member(object, key);
     double number = *out;
     const trl_result result = scene_node_number_or(&node, range, &number);
-    if (result != TRL_OK) {
-        return result;
-    }
-    if (number != (uint32_t)number) {
-        return scene_node_fail(&node, "%g must be a whole number", number);
-    }
-    *out = (uint32_t)number;
-    return TRL_OK;
+    *out = result == TRL_OK ? (uint32_t)number : *out;
+    return result;
 }
 
 static trl_result read_counts(const struct scene_node *node, trl_rayleigh_desc *out)
 {
-    const struct scene_range samples = {.min = 3, .max = TRL_RAYLEIGH_MAX_SAMPLES};
-    const struct scene_range wavelengths = {.min = 3, .max = TRL_RAYLEIGH_MAX_WAVELENGTHS};
-    const struct scene_range heights = {.min = 2, .max = TRL_RAYLEIGH_MAX_HEIGHTS};
-    const struct scene_range degree = {.min = 1, .max = TRL_RAYLEIGH_MAX_DEGREE};
+    const struct scene_range samples = {
+        .min = 3, .max = TRL_RAYLEIGH_MAX_SAMPLES, .is_whole = true};
+    const struct scene_range wavelengths = {
+        .min = 3, .max = TRL_RAYLEIGH_MAX_WAVELENGTHS, .is_whole = true};
+    const struct scene_range heights = {
+        .min = 2, .max = TRL_RAYLEIGH_MAX_HEIGHTS, .is_whole = true};
+    const struct scene_range degree = {.min = 1, .max = TRL_RAYLEIGH_MAX_DEGREE, .is_whole = true};
     trl_result result = read_count(node, "samples", &samples, &out->samples);
     if (result == TRL_OK && out->samples % 2 == 0) {
         const struct scene_node even = scene_node_member(node, "samples");

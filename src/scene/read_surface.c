@@ -48,24 +48,13 @@ static trl_result check_extras(const struct scene_node *node, enum layer_kind ki
 
 static trl_result read_numbers(const struct scene_node *node, struct layer *out)
 {
-    const struct scene_range feathers = {.min = 0, .max = 90};
     const struct scene_range scales = {.min = -1e6, .max = 1e6};
-    const struct scene_range luminances = {.min = 0, .max = 1e6};
-    const struct scene_node feather = scene_node_member(node, "feather_deg");
-    const struct scene_node scale = scene_node_member(node, "scale");
-    const struct scene_node offset = scene_node_member(node, "offset_m");
-    const struct scene_node radiance = scene_node_member(node, "radiance_cd_m2");
-    trl_result result = scene_node_number_or(&feather, &feathers, &out->feather_deg);
-    if (result == TRL_OK) {
-        result = scene_node_number_or(&scale, &scales, &out->scale);
-    }
-    if (result == TRL_OK) {
-        result = scene_node_number_or(&offset, &scales, &out->offset_m);
-    }
-    if (result == TRL_OK) {
-        result = scene_node_number_or(&radiance, &luminances, &out->radiance_cd_m2);
-    }
-    return result;
+    const struct scene_number numbers[] = {
+        {"feather_deg", {.min = 0, .max = 90}, &out->feather_deg},
+        {"scale", scales, &out->scale},
+        {"offset_m", scales, &out->offset_m},
+        {"radiance_cd_m2", {.min = 0, .max = 1e6}, &out->radiance_cd_m2}};
+    return scene_read_numbers(node, numbers, sizeof numbers / sizeof *numbers);
 }
 
 static trl_result read_blend(const struct scene_node *node, struct layer *out)
