@@ -17,6 +17,9 @@
         }                                                                                          \
     } while (false)
 
+// Of the path tracers, for each number.
+#define CHECK_MAX_PATHS UINT64_C(1000000000000)
+
 // That every number of a view is finite and in range for the scene's planet and bodies, and every
 // choice known.
 TRL_MUST_USE trl_result check_view(const trl_context *ctx, const trl_view *view,

@@ -14,7 +14,6 @@
 #include <math.h>
 
 enum { REFERENCE_CANARY = 0x54525031 };
-static const uint64_t MAX_PATHS = 1000000000000;
 static const double MAX_PIXEL_WIDTH = 16;
 
 trl_reference_desc trl_reference_desc_default(void)
@@ -27,7 +26,7 @@ static trl_result check_desc(const trl_context *ctx, const trl_reference_desc *d
     TRL_REQUIRE(ctx, desc != NULL);
     TRL_REQUIRE(ctx, desc->canary == REFERENCE_CANARY);
     TRL_REQUIRE(ctx, desc->scene != NULL);
-    TRL_REQUIRE(ctx, desc->paths >= 1 && desc->paths <= MAX_PATHS);
+    TRL_REQUIRE(ctx, desc->paths >= 1 && desc->paths <= CHECK_MAX_PATHS);
     TRL_REQUIRE(ctx, desc->max_orders <= TRL_SKY_MAX_ORDERS);
     TRL_REQUIRE(ctx, desc->pixel_width >= 0 && desc->pixel_width <= MAX_PIXEL_WIDTH);
     return TRL_OK;

@@ -4,15 +4,14 @@
 
 #include "api/check.h"
 #include "api/rayleigh.h"
+#include "api/wavelengths.h"
 #include "reference/path_tracer.h"
 #include "scatter/query.h"
 #include "scene/scene.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum { SKY_CANARY = 0x54534b31 };
-static const uint64_t MAX_PATHS = 1000000000000;
 
 trl_sky_desc trl_sky_desc_default(void)
 {
@@ -39,39 +38,24 @@ static trl_result check_query(const trl_context *ctx, const struct medium *mediu
                  : TRL_OK;
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-// The different wavelengths of the queries, ascending; returns how many.
-static size_t list_wavelengths(const trl_sky_query *queries, size_t count, double *nm)
-{
-    for (size_t n = 0; n < count; n++) {
-        nm[n] = queries[n].wavelength_nm;
-    }
-    qsort(nm, count, sizeof *nm, compare_doubles);
-    size_t kept = 0;
-    for (size_t n = 0; n < count; n++) {
-        if (kept == 0 || nm[n] != nm[kept - 1]) {
-            nm[kept++] = nm[n];
-        }
-    }
-    return kept;
-}
+// Queries that are answered solution by solution.
+struct batch {
+    const trl_context *ctx;
+    const trl_sky_desc *desc;
+    const trl_sky_query *queries;
+    size_t count;
+    double *radiance;
+};
 
 // Answers the queries at the solution's wavelengths.
-static trl_result answer_batch(const trl_context *ctx, const struct solution *solution,
-                               const trl_sky_desc *desc, const trl_sky_query *queries, size_t count,
-                               double *radiance)
+static trl_result answer_batch(void *self, const struct solution *solution)
 {
+    const struct batch *batch = self;
     const struct optics *optics = solution->optics;
     struct query *query = NULL;
-    const trl_result result = query_create(ctx, solution, &query);
-    for (size_t n = 0; n < count && result == TRL_OK; n++) {
-        const trl_sky_query *q = &queries[n];
+    const trl_result result = query_create(batch->ctx, solution, &query);
+    for (size_t n = 0; n < batch->count && result == TRL_OK; n++) {
+        const trl_sky_query *q = &batch->queries[n];
         for (int k = 0; k < optics->wavelength_count; k++) {
             if (optics->wavelength_nm[k] != q->wavelength_nm) {
                 continue;
@@ -80,16 +64,16 @@ static trl_result answer_batch(const trl_context *ctx, const struct solution *so
                 query_view_make(optics->ground_radius_m + q->altitude_m, q->sun_zenith_rad,
                                 q->view_zenith_rad, q->azimuth_rad);
             lanes all;
-            if (desc->model == TRL_SKY_SINGLE) {
+            if (batch->desc->model == TRL_SKY_SINGLE) {
                 query_plane_radiance(query, &view, &all);
             } else {
                 query_radiance(query, &view, &all);
             }
-            radiance[n] =
+            batch->radiance[n] =
                 (double)all[k] * spectrum_at(&optics->medium->star_irradiance, q->wavelength_nm);
         }
     }
-    query_destroy(ctx, &query);
+    query_destroy(batch->ctx, &query);
     return result;
 }
 
@@ -97,31 +81,20 @@ static trl_result solve_and_answer(const trl_context *ctx, const struct medium *
                                    const trl_sky_desc *desc, const trl_sky_query *queries,
                                    size_t count, double *radiance)
 {
+    struct batch batch = {ctx, desc, queries, count, radiance};
+    const struct wavelengths_work work = {
+        .use = desc->max_orders > 0 ? OPTICS_WHOLE : OPTICS_NUMBERS,
+        .orders = desc->model == TRL_SKY_SINGLE ? 1 : desc->max_orders,
+        .answer = answer_batch,
+        .self = &batch};
     double *nm = mem_alloc(ctx, count, sizeof *nm);
-    struct optics *optics = mem_alloc(ctx, 1, sizeof *optics);
-    trl_result result = nm && optics ? TRL_OK : TRL_ERROR_MEMORY;
-    const size_t different = result == TRL_OK ? list_wavelengths(queries, count, nm) : 0;
-    for (size_t first = 0; first < different && result == TRL_OK; first += LANES) {
-        const size_t left = different - first;
-        for (size_t k = first; k < different && k < first + LANES && result == TRL_OK; k++) {
-            result = medium_check(ctx, medium, nm[k]);
-        }
-        if (result != TRL_OK) {
-            break;
-        }
-        optics_init_for(desc->max_orders > 0 ? OPTICS_WHOLE : OPTICS_NUMBERS, medium, nm + first,
-                        left < LANES ? (int)left : LANES, optics);
-        struct solver_settings settings = solver_settings_choose(optics, SOLVER_PRECISE);
-        settings.orders = desc->model == TRL_SKY_SINGLE ? 1 : (int)desc->max_orders;
-        struct solution solution;
-        result = solution_init(ctx, optics, &settings, &solution);
-        if (result == TRL_OK) {
-            result = answer_batch(ctx, &solution, desc, queries, count, radiance);
-            solution_finish(ctx, &solution);
-        }
+    for (size_t n = 0; nm && n < count; n++) {
+        nm[n] = queries[n].wavelength_nm;
     }
+    const trl_result result =
+        nm ? wavelengths_solve(ctx, medium, nm, wavelengths_sort(nm, count), &work)
+           : TRL_ERROR_MEMORY;
     mem_free(ctx, nm);
-    mem_free(ctx, optics);
     return result;
 }
 
@@ -178,7 +151,7 @@ static trl_result check_desc(const trl_context *ctx, const trl_sky_desc *desc)
                         "the model \"%s\" has one order of scattering, not %u",
                         trl_sky_model_name(desc->model), desc->max_orders);
     }
-    TRL_REQUIRE(ctx, desc->paths >= 2 && desc->paths <= MAX_PATHS);
+    TRL_REQUIRE(ctx, desc->paths >= 2 && desc->paths <= CHECK_MAX_PATHS);
     return desc->rayleigh ? check_rayleigh(ctx, desc->rayleigh) : TRL_OK;
 }
 

@@ -3,16 +3,15 @@
 #include <terrella/water.h>
 
 #include "api/check.h"
+#include "api/wavelengths.h"
 #include "ocean/volume.h"
 #include "reference/water.h"
-#include "scatter/solver.h"
 #include "scene/scene.h"
 
 #include <math.h>
 #include <time.h>
 
 enum { WATER_CANARY = 0x54575431 };
-static const uint64_t MAX_PATHS = 1000000000000;
 // Level lines of sight never leave a layer.
 static const double LEAST_COSINE = 1e-6;
 
@@ -94,52 +93,51 @@ static void trace(const struct ocean_desc *ocean, const trl_water_desc *desc,
                              .sky_error = light.sky_error};
 }
 
-// Irradiance of level water at one wavelength, for all queries of it from `first` on.
+// Queries that are lit solution by solution.
+struct batch {
+    const trl_water_query *queries;
+    size_t count;
+    trl_water_light *lights;
+};
+
+// Irradiance of level water at the solution's wavelengths, and what the water makes of it.
+static trl_result light_batch(void *self, const struct solution *solution)
+{
+    const struct batch *batch = self;
+    const struct optics *optics = solution->optics;
+    for (size_t n = 0; n < batch->count; n++) {
+        const trl_water_query *q = &batch->queries[n];
+        for (int k = 0; k < optics->wavelength_count; k++) {
+            if (optics->wavelength_nm[k] != q->wavelength_nm) {
+                continue;
+            }
+            const double mu = cos(q->sun_zenith_rad);
+            const double star = spectrum_at(&optics->medium->star_irradiance, q->wavelength_nm);
+            lanes direct;
+            sunlight_ground_at(&solution->sun, mu, &direct);
+            const lanes diffuse = moments_irradiance(&solution->moments, mu);
+            trl_water_light *l = &batch->lights[n];
+            l->star_irradiance = star * (double)direct[k];
+            l->sky_irradiance = star * (double)diffuse[k];
+            l->radiance = l->star_per_sr * l->star_irradiance + l->sky_per_sr * l->sky_irradiance;
+        }
+    }
+    return TRL_OK;
+}
+
 static trl_result light_up(const trl_context *ctx, const struct medium *medium,
                            const trl_water_query *queries, size_t count, trl_water_light *lights)
 {
-    struct optics *optics = mem_alloc(ctx, 1, sizeof *optics);
+    struct batch batch = {queries, count, lights};
+    const struct wavelengths_work work = {
+        .use = OPTICS_NUMBERS, .answer = light_batch, .self = &batch};
     double *nm = mem_alloc(ctx, count, sizeof *nm);
-    trl_result result = optics && nm ? TRL_OK : TRL_ERROR_MEMORY;
-    size_t different = 0;
-    for (size_t n = 0; n < count && result == TRL_OK; n++) {
-        size_t k = 0;
-        while (k < different && nm[k] != queries[n].wavelength_nm) {
-            k++;
-        }
-        if (k == different) {
-            nm[different++] = queries[n].wavelength_nm;
-            result = medium_check(ctx, medium, nm[k]);
-        }
+    for (size_t n = 0; nm && n < count; n++) {
+        nm[n] = queries[n].wavelength_nm;
     }
-    for (size_t first = 0; first < different && result == TRL_OK; first += LANES) {
-        const int lanes_used = different - first < LANES ? (int)(different - first) : LANES;
-        optics_init_for(OPTICS_NUMBERS, medium, nm + first, lanes_used, optics);
-        const struct solver_settings settings = solver_settings_choose(optics, SOLVER_PRECISE);
-        struct solution solution;
-        result = solution_init(ctx, optics, &settings, &solution);
-        for (size_t n = 0; n < count && result == TRL_OK; n++) {
-            for (int k = 0; k < lanes_used; k++) {
-                if (nm[first + (size_t)k] != queries[n].wavelength_nm) {
-                    continue;
-                }
-                const double mu = cos(queries[n].sun_zenith_rad);
-                const double star = spectrum_at(&medium->star_irradiance, queries[n].wavelength_nm);
-                lanes direct;
-                sunlight_ground_at(&solution.sun, mu, &direct);
-                const lanes diffuse = moments_irradiance(&solution.moments, mu);
-                trl_water_light *l = &lights[n];
-                l->star_irradiance = star * (double)direct[k];
-                l->sky_irradiance = star * (double)diffuse[k];
-                l->radiance =
-                    l->star_per_sr * l->star_irradiance + l->sky_per_sr * l->sky_irradiance;
-            }
-        }
-        if (result == TRL_OK) {
-            solution_finish(ctx, &solution);
-        }
-    }
-    mem_free(ctx, optics);
+    const trl_result result =
+        nm ? wavelengths_solve(ctx, medium, nm, wavelengths_sort(nm, count), &work)
+           : TRL_ERROR_MEMORY;
     mem_free(ctx, nm);
     return result;
 }
@@ -161,7 +159,7 @@ trl_result trl_water_radiance(trl_context *ctx, const trl_scene *scene, const tr
     TRL_REQUIRE(ctx, count == 0 || (queries && lights));
     const trl_water_desc all = desc ? *desc : trl_water_desc_default();
     TRL_REQUIRE(ctx, all.canary == WATER_CANARY);
-    TRL_REQUIRE(ctx, all.paths >= 2 && all.paths <= MAX_PATHS);
+    TRL_REQUIRE(ctx, all.paths >= 2 && all.paths <= CHECK_MAX_PATHS);
     trl_result result = check_ocean(ctx, scene);
     for (size_t n = 0; n < count && result == TRL_OK; n++) {
         result = check_query(ctx, &queries[n], n);
