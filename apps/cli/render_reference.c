@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "render_reference.h"
 
+#include "common_options.h"
 #include "output.h"
 
 #include <stdlib.h>
@@ -16,21 +17,12 @@ void traced_make_options(struct traced_arguments *arguments, struct option out[T
          .target.flag = &arguments->is_wanted,
          .help = "Trace paths on the CPU instead of drawing: slow, without bias, no OpenGL. To "
                  "judge the other pictures by."},
-        {.name = "paths",
-         .kind = OPTION_NUMBER,
-         .target.number = &arguments->paths,
-         .metavar = "N",
-         .range = {1, 1e12},
-         .is_whole = true,
-         .help = "Of --reference, for each pixel: four times as many halve the noise. Rounded up "
-                 "to a multiple of 16 and to 32. Default: 64."},
-        {.name = "seed",
-         .kind = OPTION_NUMBER,
-         .target.number = &arguments->seed,
-         .metavar = "N",
-         .range = {0, 9007199254740992},
-         .is_whole = true,
-         .help = "Of --reference: the same seed gives the same picture. Default: 0."},
+        option_paths(
+            &arguments->paths, 1,
+            "Of --reference, for each pixel: four times as many halve the noise. Rounded up "
+            "to a multiple of 16 and to 32. Default: 64."),
+        option_seed(&arguments->seed,
+                    "Of --reference: the same seed gives the same picture. Default: 0."),
         {.name = "orders",
          .kind = OPTION_NUMBER,
          .target.number = &arguments->orders,

@@ -3,7 +3,9 @@
 // terrella sea: light in the water as numbers. No OpenGL is touched.
 #include "app.h"
 #include "commands.h"
+#include "common_options.h"
 #include "output.h"
+#include "query_lists.h"
 
 #include <terrella/water.h>
 
@@ -13,43 +15,42 @@
 // What a query consists of, in the order of the output's columns.
 enum { DEPTH, EYE_DEPTH, SUN_ZENITH, VIEW_ZENITH, AZIMUTH, WAVELENGTH, PART_COUNT };
 
-struct part {
-    const char *column; // of the CSV
-    const char *option;
-    const char *metavar;
-    struct number_range range;
-    const char *fallback; // NULL: it must be given
-    const char *help;
-};
+static const struct number_item zero = {0.0, "0"};
 
-static const struct part parts[PART_COUNT] = {
-    {"depth_m", "depth", "LIST", {0.0, 1e6}, NULL, "Metres of water."},
-    {"eye_depth_m",
-     "eye-depth",
-     "LIST",
-     {0.0, 1e6},
-     "0",
-     "Metres of the eye below the surface. Default: 0, above it."},
-    {"sun_zenith_deg",
-     "sun-zenith",
-     "LIST",
-     {0.0, 89.99},
-     NULL,
-     "Degrees from the zenith to the sun's centre, in the air: 0 overhead."},
-    {"view_zenith_deg",
-     "view-zenith",
-     "LIST",
-     {0.0, 180.0},
-     NULL,
-     "Degrees from the zenith to the line of sight, where the eye is: 180 looks straight down. "
-     "Above 90 for an eye above the water."},
-    {"azimuth_deg",
-     "azimuth",
-     "LIST",
-     {-360.0, 360.0},
-     "0",
-     "Degrees of the line of sight from the sun's: 0 is toward the sun. Default: 0."},
-    {"wavelength_nm", "wavelength", "LIST", {1.0, 1e7}, NULL, "Nanometres."},
+static const struct query_part parts[PART_COUNT] = {
+    {.column = "depth_m",
+     .option = "depth",
+     .metavar = "LIST",
+     .range = {0.0, 1e6},
+     .help = "Metres of water."},
+    {.column = "eye_depth_m",
+     .option = "eye-depth",
+     .metavar = "LIST",
+     .range = {0.0, 1e6},
+     .fallback = &zero,
+     .help = "Metres of the eye below the surface. Default: 0, above it."},
+    {.column = "sun_zenith_deg",
+     .option = "sun-zenith",
+     .metavar = "LIST",
+     .range = {0.0, 89.99},
+     .help = "Degrees from the zenith to the sun's centre, in the air: 0 overhead."},
+    {.column = "view_zenith_deg",
+     .option = "view-zenith",
+     .metavar = "LIST",
+     .range = {0.0, 180.0},
+     .help = "Degrees from the zenith to the line of sight, where the eye is: 180 looks straight "
+             "down. Above 90 for an eye above the water."},
+    {.column = "azimuth_deg",
+     .option = "azimuth",
+     .metavar = "LIST",
+     .range = {-360.0, 360.0},
+     .fallback = &zero,
+     .help = "Degrees of the line of sight from the sun's: 0 is toward the sun. Default: 0."},
+    {.column = "wavelength_nm",
+     .option = "wavelength",
+     .metavar = "LIST",
+     .range = {1.0, 1e7},
+     .help = "Nanometres."},
 };
 
 enum { QUERIES_MAX = 1000000 };
@@ -57,7 +58,7 @@ static const double rad_per_deg = 3.14159265358979323846 / 180.0;
 
 struct sea_arguments {
     const char *scene;
-    struct number_list lists[PART_COUNT];
+    struct query_lists lists;
     int solver;
     struct option_number paths, seed;
     const char *output; // NULL: standard output
@@ -89,16 +90,13 @@ static const char examples[] =
 
 static enum options_outcome read_arguments(int argc, char **argv, struct sea_arguments *out)
 {
-    *out = (struct sea_arguments){0};
+    *out = (struct sea_arguments){.lists = {.command = "sea",
+                                            .parts = parts,
+                                            .part_count = PART_COUNT,
+                                            .max_count = QUERIES_MAX,
+                                            .alternative = ""}};
     struct option query[PART_COUNT];
-    for (int i = 0; i < PART_COUNT; i++) {
-        query[i] = (struct option){.name = parts[i].option,
-                                   .kind = OPTION_LIST,
-                                   .target.list = &out->lists[i],
-                                   .metavar = parts[i].metavar,
-                                   .range = parts[i].range,
-                                   .help = parts[i].help};
-    }
+    query_lists_make_options(&out->lists, query);
     const struct option solver[] = {
         {.name = "solver",
          .kind = OPTION_CHOICE,
@@ -107,35 +105,13 @@ static enum options_outcome read_arguments(int argc, char **argv, struct sea_arg
          .metavar = "NAME",
          .help = "spectral (the default) or reference (a Monte Carlo path tracer to judge it by: "
                  "slow)."},
-        {.name = "paths",
-         .kind = OPTION_NUMBER,
-         .target.number = &out->paths,
-         .metavar = "N",
-         .range = {2, 1e12},
-         .is_whole = true,
-         .help = "Of the path tracer for each query: four times as many halve the noise. Default: "
-                 "100000."},
-        {.name = "seed",
-         .kind = OPTION_NUMBER,
-         .target.number = &out->seed,
-         .metavar = "N",
-         .range = {0, 9007199254740992},
-         .is_whole = true,
-         .help = "Of the path tracer: the same seed gives the same numbers. Default: 0."},
+        option_paths(&out->paths, 2,
+                     "Of the path tracer for each query: four times as many halve the noise. "
+                     "Default: 100000."),
+        option_seed(&out->seed,
+                    "Of the path tracer: the same seed gives the same numbers. Default: 0."),
     };
-    const struct option result[] = {
-        {.name = "output",
-         .letter = 'o',
-         .kind = OPTION_TEXT,
-         .target.text = &out->output,
-         .metavar = "FILE",
-         .help = "Where to write. Default: standard output."},
-        {.name = "quiet",
-         .letter = 'q',
-         .kind = OPTION_FLAG,
-         .target.flag = &out->is_quiet,
-         .help = "No progress line."},
-    };
+    const struct option result[] = {option_output(&out->output), option_quiet(&out->is_quiet)};
     struct option data[DATA_OPTIONS];
     data_options_make(&out->data, data);
     const struct option_section sections[] = {{"Query", query, PART_COUNT},
@@ -173,14 +149,9 @@ static void finish_work(struct work *work)
 
 static enum exit_status begin_work(const struct sea_arguments *arguments, struct work *out)
 {
-    out->count = 1;
-    for (int i = 0; i < PART_COUNT; i++) {
-        if (arguments->lists[i].count == 0 && !parts[i].fallback) {
-            return report_error(EXIT_USAGE, "sea: --%s is missing; see terrella sea --help",
-                                parts[i].option);
-        }
-        out->count *= arguments->lists[i].count > 0 ? arguments->lists[i].count : 1;
-        out->count = out->count > QUERIES_MAX ? QUERIES_MAX + 1 : out->count; // no overflow
+    const enum exit_status status = query_lists_count(&arguments->lists, &out->count);
+    if (status != EXIT_OK) {
+        return status;
     }
     if (out->count > QUERIES_MAX) {
         return report_error(EXIT_USAGE, "sea: these are more than %d queries", QUERIES_MAX);
@@ -193,22 +164,11 @@ static enum exit_status begin_work(const struct sea_arguments *arguments, struct
                : report_error(EXIT_FAILED, "sea: no memory for %zu queries", out->count);
 }
 
-// Every combination of the lists, the last one running fastest.
 static void combine_lists(const struct sea_arguments *arguments, struct work *work)
 {
     for (size_t q = 0; q < work->count; q++) {
-        double values[PART_COUNT] = {0};
-        size_t rest = q;
-        for (int i = PART_COUNT - 1; i >= 0; i--) {
-            const struct number_list *list = &arguments->lists[i];
-            work->texts[q][i] = parts[i].fallback;
-            if (list->count > 0) {
-                const struct number_item *item = &list->items[rest % list->count];
-                rest /= list->count;
-                values[i] = item->value;
-                work->texts[q][i] = item->text;
-            }
-        }
+        double values[PART_COUNT];
+        query_lists_get(&arguments->lists, q, values, work->texts[q]);
         work->queries[q] = (trl_water_query){.depth_m = values[DEPTH],
                                              .eye_depth_m = values[EYE_DEPTH],
                                              .sun_zenith_rad = values[SUN_ZENITH] * rad_per_deg,
@@ -218,18 +178,15 @@ static void combine_lists(const struct sea_arguments *arguments, struct work *wo
     }
 }
 
-static void print_answers(FILE *stream, const struct work *work, bool has_error)
+static void print_answers(FILE *stream, const struct query_lists *lists, const struct work *work,
+                          bool has_error)
 {
-    for (int i = 0; i < PART_COUNT; i++) {
-        fprintf(stream, "%s,", parts[i].column);
-    }
+    query_lists_print_columns(lists, stream);
     fprintf(stream, "star_per_sr,sky_per_sr,star_W_m2_nm,sky_W_m2_nm,radiance_W_m2_sr_nm%s\n",
             has_error ? ",star_standard_error,sky_standard_error" : "");
     for (size_t q = 0; q < work->count; q++) {
         const trl_water_light *l = &work->lights[q];
-        for (int i = 0; i < PART_COUNT; i++) {
-            fprintf(stream, "%s,", work->texts[q][i]);
-        }
+        query_lists_print_texts(lists, work->texts[q], stream);
         fprintf(stream, "%.9g,%.9g,%.9g,%.9g,%.9g", l->star_per_sr, l->sky_per_sr,
                 l->star_irradiance, l->sky_irradiance, l->radiance);
         if (has_error) {
@@ -272,7 +229,8 @@ static enum exit_status run(struct app *app, const struct sea_arguments *argumen
     status = status == EXIT_OK ? solve(app, arguments, &work) : status;
     if (status == EXIT_OK) {
         progress_clear(&app->progress);
-        print_answers(output.stream, &work, arguments->solver == SOLVER_REFERENCE);
+        print_answers(output.stream, &arguments->lists, &work,
+                      arguments->solver == SOLVER_REFERENCE);
         status = output_text_commit(&output);
     }
     output_text_abort(&output);
@@ -295,8 +253,6 @@ enum exit_status command_sea(int argc, char **argv)
         status = status == EXIT_OK ? run(&app, &arguments) : status;
         app_finish(&app);
     }
-    for (int i = 0; i < PART_COUNT; i++) {
-        number_list_finish(&arguments.lists[i]);
-    }
+    query_lists_finish(&arguments.lists);
     return status;
 }

@@ -3,8 +3,10 @@
 // terrella sky: spectral radiances as numbers. No OpenGL is touched.
 #include "app.h"
 #include "commands.h"
+#include "common_options.h"
 #include "csv.h"
 #include "output.h"
+#include "query_lists.h"
 #include "rayleigh_options.h"
 
 #include <math.h>
@@ -13,19 +15,34 @@
 // What a query consists of, in the order of the output's columns.
 enum { ALTITUDE, SUN_ZENITH, VIEW_ZENITH, AZIMUTH, WAVELENGTH, PART_COUNT };
 
-struct part {
-    const char *column; // of the CSV
-    const char *option;
-    struct number_range range;
-};
-
 // The tiny wavelength keeps 0 out; there is no light of longer wavelength than a metre to speak of.
-static const struct part parts[PART_COUNT] = {
-    {"altitude_m", "altitude", {0.0, 1e12}},
-    {"sun_zenith_deg", "sun-zenith", {0.0, 180.0}},
-    {"view_zenith_deg", "view-zenith", {0.0, 180.0}},
-    {"azimuth_deg", "azimuth", {-360.0, 360.0}},
-    {"wavelength_nm", "wavelength", {1e-3, 1e9}},
+static const struct query_part parts[PART_COUNT] = {
+    {.column = "altitude_m",
+     .option = "altitude",
+     .metavar = "M",
+     .range = {0.0, 1e12},
+     .help = "Metres of the observer above the reference sphere; may be above the atmosphere."},
+    {.column = "sun_zenith_deg",
+     .option = "sun-zenith",
+     .metavar = "DEG",
+     .range = {0.0, 180.0},
+     .help = "Degrees from the zenith to the sun's centre: 0 overhead, above 90 below the "
+             "horizontal."},
+    {.column = "view_zenith_deg",
+     .option = "view-zenith",
+     .metavar = "LIST",
+     .range = {0.0, 180.0},
+     .help = "Degrees from the zenith to the line of sight: 0 is up, above 90 looks down."},
+    {.column = "azimuth_deg",
+     .option = "azimuth",
+     .metavar = "LIST",
+     .range = {-360.0, 360.0},
+     .help = "Degrees of the line of sight from the sun's: 0 is toward the sun."},
+    {.column = "wavelength_nm",
+     .option = "wavelength",
+     .metavar = "LIST",
+     .range = {1e-3, 1e9},
+     .help = "Nanometres."},
 };
 
 enum { QUERIES_MAX = 10000000 };
@@ -33,7 +50,7 @@ static const double rad_per_deg = 3.14159265358979323846 / 180.0;
 
 struct sky_arguments {
     const char *scene;
-    struct number_list lists[PART_COUNT];
+    struct query_lists lists;
     const char *queries; // NULL: the lists
     int solver;          // a trl_sky_model
     struct option_number orders, paths, seed;
@@ -68,27 +85,16 @@ static const char examples[] =
     "  terrella sky scenes/earth.json --altitude 0 --sun-zenith 60 --view-zenith 45 \\\n"
     "      --azimuth 90 --wavelength 550 --solver reference --paths 100000\n";
 
-static const char *const helps[PART_COUNT] = {
-    "Metres of the observer above the reference sphere; may be above the atmosphere.",
-    "Degrees from the zenith to the sun's centre: 0 overhead, above 90 below the horizontal.",
-    "Degrees from the zenith to the line of sight: 0 is up, above 90 looks down.",
-    "Degrees of the line of sight from the sun's: 0 is toward the sun.",
-    "Nanometres.",
-};
-static const char *const metavars[PART_COUNT] = {"M", "DEG", "LIST", "LIST", "LIST"};
-
 static enum options_outcome read_arguments(int argc, char **argv, struct sky_arguments *out)
 {
-    *out = (struct sky_arguments){.rayleigh = rayleigh_choice_default()};
+    *out = (struct sky_arguments){.rayleigh = rayleigh_choice_default(),
+                                  .lists = {.command = "sky",
+                                            .parts = parts,
+                                            .part_count = PART_COUNT,
+                                            .max_count = QUERIES_MAX,
+                                            .alternative = " (or --queries)"}};
     struct option query[PART_COUNT + 1];
-    for (int i = 0; i < PART_COUNT; i++) {
-        query[i] = (struct option){.name = parts[i].option,
-                                   .kind = OPTION_LIST,
-                                   .target.list = &out->lists[i],
-                                   .metavar = metavars[i],
-                                   .range = parts[i].range,
-                                   .help = helps[i]};
-    }
+    query_lists_make_options(&out->lists, query);
     query[PART_COUNT] =
         (struct option){.name = "queries",
                         .kind = OPTION_TEXT,
@@ -114,37 +120,15 @@ static enum options_outcome read_arguments(int argc, char **argv, struct sky_arg
          .is_whole = true,
          .word = "all",
          .help = "Scatterings and reflections by the ground that light may have. Default: all."},
-        {.name = "paths",
-         .kind = OPTION_NUMBER,
-         .target.number = &out->paths,
-         .metavar = "N",
-         .range = {2, 1e12},
-         .is_whole = true,
-         .help = "Of the path tracer for each query: four times as many halve the noise. Default: "
-                 "10000."},
-        {.name = "seed",
-         .kind = OPTION_NUMBER,
-         .target.number = &out->seed,
-         .metavar = "N",
-         .range = {0, 9007199254740992},
-         .is_whole = true,
-         .help = "Of the path tracer: the same seed gives the same numbers. Default: 0."},
+        option_paths(&out->paths, 2,
+                     "Of the path tracer for each query: four times as many halve the noise. "
+                     "Default: 10000."),
+        option_seed(&out->seed,
+                    "Of the path tracer: the same seed gives the same numbers. Default: 0."),
     };
     struct option rayleigh[RAYLEIGH_OPTIONS];
     rayleigh_options_make(&out->rayleigh, rayleigh);
-    const struct option result[] = {
-        {.name = "output",
-         .letter = 'o',
-         .kind = OPTION_TEXT,
-         .target.text = &out->output,
-         .metavar = "FILE",
-         .help = "Where to write. Default: standard output."},
-        {.name = "quiet",
-         .letter = 'q',
-         .kind = OPTION_FLAG,
-         .target.flag = &out->is_quiet,
-         .help = "No progress line."},
-    };
+    const struct option result[] = {option_output(&out->output), option_quiet(&out->is_quiet)};
     struct option data[DATA_OPTIONS];
     data_options_make(&out->data, data);
     const struct option_section sections[] = {
@@ -165,13 +149,6 @@ static enum options_outcome read_arguments(int argc, char **argv, struct sky_arg
     const enum options_outcome outcome = options_read(&spec, argc, argv, &words);
     out->scene = words.positionals[0];
     return outcome;
-}
-
-static void finish_arguments(struct sky_arguments *arguments)
-{
-    for (int i = 0; i < PART_COUNT; i++) {
-        number_list_finish(&arguments->lists[i]);
-    }
 }
 
 static enum exit_status allocate_questions(size_t count, struct questions *out)
@@ -204,31 +181,16 @@ static trl_sky_query make_query(const double values[PART_COUNT])
                            .wavelength_nm = values[WAVELENGTH]};
 }
 
-// Every combination of the lists, the last one running fastest.
 static enum exit_status combine_lists(const struct sky_arguments *arguments, struct questions *out)
 {
-    size_t count = 1;
-    for (int i = 0; i < PART_COUNT; i++) {
-        if (arguments->lists[i].count == 0) {
-            return report_error(EXIT_USAGE,
-                                "sky: --%s (or --queries) is missing; see terrella sky "
-                                "--help",
-                                parts[i].option);
-        }
-        count *= arguments->lists[i].count;
-        count = count > QUERIES_MAX ? QUERIES_MAX + 1 : count; // keeps the product from overflowing
+    size_t count = 0;
+    enum exit_status status = query_lists_count(&arguments->lists, &count);
+    if (status == EXIT_OK) {
+        status = allocate_questions(count, out);
     }
-    const enum exit_status status = allocate_questions(count, out);
     for (size_t q = 0; status == EXIT_OK && q < count; q++) {
         double values[PART_COUNT];
-        size_t rest = q;
-        for (int i = PART_COUNT - 1; i >= 0; i--) {
-            const struct number_list *list = &arguments->lists[i];
-            const struct number_item *item = &list->items[rest % list->count];
-            rest /= list->count;
-            values[i] = item->value;
-            out->texts[q][i] = item->text;
-        }
+        query_lists_get(&arguments->lists, q, values, out->texts[q]);
         out->queries[q] = make_query(values);
     }
     return status;
@@ -273,17 +235,13 @@ struct answers {
     double *standard_error; // owned; NULL: the solver has none
 };
 
-static void print_answers(FILE *stream, const struct questions *questions,
-                          const struct answers *answers)
+static void print_answers(FILE *stream, const struct query_lists *lists,
+                          const struct questions *questions, const struct answers *answers)
 {
-    for (int i = 0; i < PART_COUNT; i++) {
-        fprintf(stream, "%s,", parts[i].column);
-    }
+    query_lists_print_columns(lists, stream);
     fprintf(stream, "radiance_W_m2_sr_nm%s\n", answers->standard_error ? ",standard_error" : "");
     for (size_t q = 0; q < questions->count; q++) {
-        for (int i = 0; i < PART_COUNT; i++) {
-            fprintf(stream, "%s,", questions->texts[q][i]);
-        }
+        query_lists_print_texts(lists, questions->texts[q], stream);
         fprintf(stream, "%.9g", answers->radiance[q]);
         if (answers->standard_error) {
             fprintf(stream, ",%.3g", answers->standard_error[q]);
@@ -349,7 +307,7 @@ static enum exit_status answer(struct app *app, const struct sky_arguments *argu
     }
     if (status == EXIT_OK) {
         progress_clear(&app->progress);
-        print_answers(output.stream, questions, &answers);
+        print_answers(output.stream, &arguments->lists, questions, &answers);
         status = output_text_commit(&output);
     }
     output_text_abort(&output);
@@ -384,7 +342,7 @@ static enum exit_status check_arguments(const struct sky_arguments *arguments)
         return report_error(EXIT_USAGE, "sky: --paths and --seed belong to --solver reference");
     }
     for (int i = 0; arguments->queries && i < PART_COUNT; i++) {
-        if (arguments->lists[i].count > 0) {
+        if (arguments->lists.lists[i].count > 0) {
             return report_error(EXIT_USAGE, "sky: --queries and --%s cannot both be given",
                                 parts[i].option);
         }
@@ -407,6 +365,6 @@ enum exit_status command_sky(int argc, char **argv)
         status = status == EXIT_OK ? run(&app, &arguments) : status;
         app_finish(&app);
     }
-    finish_arguments(&arguments);
+    query_lists_finish(&arguments.lists);
     return status;
 }

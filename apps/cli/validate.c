@@ -4,6 +4,7 @@
 #include "validate.h"
 
 #include "commands.h"
+#include "common_options.h"
 #include "output.h"
 
 #include <stdio.h>
@@ -37,14 +38,9 @@ static enum options_outcome read_arguments(int argc, char **argv, struct validat
 {
     *out = (struct validate_arguments){.html = NULL};
     const struct option work[] = {
-        {.name = "paths",
-         .kind = OPTION_NUMBER,
-         .target.number = &out->paths,
-         .metavar = "N",
-         .range = {2, 1e12},
-         .is_whole = true,
-         .help = "Of the path tracer for each value, in every view, however long that takes. "
-                 "Default: as many as there is time for, more where they are noisier."},
+        option_paths(&out->paths, 2,
+                     "Of the path tracer for each value, in every view, however long that takes. "
+                     "Default: as many as there is time for, more where they are noisier."),
         {.name = "seconds",
          .kind = OPTION_NUMBER,
          .target.number = &out->seconds,
@@ -67,11 +63,7 @@ static enum options_outcome read_arguments(int argc, char **argv, struct validat
          .kind = OPTION_FLAG,
          .target.flag = &out->is_json,
          .help = "Print one JSON object instead of tables."},
-        {.name = "quiet",
-         .letter = 'q',
-         .kind = OPTION_FLAG,
-         .target.flag = &out->is_quiet,
-         .help = "No progress line."},
+        option_quiet(&out->is_quiet),
     };
     struct option data[DATA_OPTIONS];
     data_options_make(&out->data, data);

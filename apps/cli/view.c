@@ -3,6 +3,7 @@
 // terrella view: the window. The flying itself is in apps/viewer.
 #include "app.h"
 #include "commands.h"
+#include "common_options.h"
 #include "interrupt.h"
 #include "output.h"
 #include "view_options.h"
@@ -47,11 +48,7 @@ static enum options_outcome read_arguments(int argc, char **argv, struct view_ar
          .metavar = "FILE.png",
          .help = "Write the last frame before quitting; without --frames the first one is the "
                  "last."},
-        {.name = "quiet",
-         .letter = 'q',
-         .kind = OPTION_FLAG,
-         .target.flag = &out->is_quiet,
-         .help = "No progress line."},
+        option_quiet(&out->is_quiet),
     };
     const struct view_command command = {
         .name = "view",
