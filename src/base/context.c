@@ -150,6 +150,13 @@ void trl_log(const trl_context *ctx, trl_log_level level, trl_log_item item, con
     va_end(args);
 }
 
+trl_context context_silenced(const trl_context *ctx)
+{
+    trl_context quiet = *ctx;
+    quiet.desc.log = NULL;
+    return quiet;
+}
+
 trl_result trl_progress(const trl_context *ctx, const char *stage, double fraction)
 {
     if (!ctx->desc.progress || ctx->desc.progress(ctx->desc.progress_user, stage, fraction)) {

@@ -21,6 +21,9 @@ trl_fail(const trl_context *ctx, trl_result code, trl_log_item item, const char 
 __attribute__((format(printf, 4, 5))) void trl_log(const trl_context *ctx, trl_log_level level,
                                                    trl_log_item item, const char *format, ...);
 
+// The same context, which logs nothing: for what is told in another way when it fails.
+trl_context context_silenced(const trl_context *ctx);
+
 // Tells the user how far a stage is. Returns TRL_OK, or TRL_ERROR_CANCELLED (logged) when asked to
 // stop.
 TRL_MUST_USE trl_result trl_progress(const trl_context *ctx, const char *stage, double fraction);

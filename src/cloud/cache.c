@@ -33,20 +33,13 @@ static char *cache_path(const trl_context *ctx)
     return mem_printf(ctx, "%s/clouds.bin", ctx->cache_dir);
 }
 
-// A cache that fails is worth one warning, not the errors of what it tried.
-static trl_context silenced(const trl_context *ctx)
-{
-    trl_context quiet = *ctx;
-    quiet.desc.log = NULL;
-    return quiet;
-}
-
 bool cloud_cache_load(const trl_context *ctx, uint32_t seed, uint16_t *texels)
 {
     char *path = cache_path(ctx);
     char *data = NULL;
     size_t size = 0;
-    const trl_context quiet = silenced(ctx);
+    // A cache that fails is worth one warning, not the errors of what it tried.
+    const trl_context quiet = context_silenced(ctx);
     const size_t bytes = sizeof(struct header) + TEXEL_BYTES;
     bool is_loaded = path && access(path, F_OK) == 0 &&
                      file_read(&quiet, path, bytes, &data, &size) == TRL_OK && size == bytes;
@@ -64,7 +57,7 @@ void cloud_cache_store(const trl_context *ctx, uint32_t seed, const uint16_t *te
 {
     char *path = cache_path(ctx);
     char *data = mem_alloc(ctx, sizeof(struct header) + TEXEL_BYTES, 1);
-    const trl_context quiet = silenced(ctx);
+    const trl_context quiet = context_silenced(ctx);
     trl_result result = path && data ? file_make_dirs(&quiet, ctx->cache_dir) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
         const struct header header = make_header(seed, texels);

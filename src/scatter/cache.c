@@ -119,14 +119,6 @@ static size_t list_pieces(const struct atmosphere *a, struct piece pieces[PIECES
     return bytes;
 }
 
-// A cache that fails is worth one warning, not the errors of what it tried.
-static trl_context silenced(const trl_context *ctx)
-{
-    trl_context quiet = *ctx;
-    quiet.desc.log = NULL;
-    return quiet;
-}
-
 static char *cache_path(const struct atmosphere *a, uint64_t key)
 {
     return mem_printf(a->ctx, "%s/atmosphere-%016llx.bin", a->ctx->cache_dir,
@@ -166,7 +158,8 @@ bool cache_load(struct atmosphere *a, const struct solver_settings *settings)
     struct piece pieces[PIECES];
     char *data = NULL;
     size_t size = 0;
-    const trl_context quiet = silenced(a->ctx);
+    // A cache that fails is worth one warning, not the errors of what it tried.
+    const trl_context quiet = context_silenced(a->ctx);
     // One byte more than is right, so that a file that is too long is seen as damaged, not refused.
     const trl_result result = file_read(
         &quiet, path, list_pieces(a, pieces) + sizeof(struct header) + 4096, &data, &size);
@@ -220,7 +213,7 @@ void cache_store(const struct atmosphere *a, const struct solver_settings *setti
     const size_t bytes = list_pieces(a, pieces);
     char *path = cache_path(a, key);
     char *data = mem_alloc(a->ctx, sizeof(struct header) + bytes, 1);
-    const trl_context quiet = silenced(a->ctx);
+    const trl_context quiet = context_silenced(a->ctx);
     trl_result result = path && data ? file_make_dirs(&quiet, a->ctx->cache_dir) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
         char *at = data + sizeof(struct header);
