@@ -183,6 +183,13 @@ static struct table_worker *worker_create(const trl_context *ctx, const struct s
     return w;
 }
 
+double table_sun_mu(const struct table *table, int sun)
+{
+    const double z =
+        table->sun_first + (table->sun_last - table->sun_first) * sun / (table->size.suns - 1);
+    return fmin(1, table->sun_centre + table->sun_width * sinh(z));
+}
+
 // All suns and azimuths of the table under one ray; suns outermost.
 static struct transport_family fill_family(const struct table *table, double mu,
                                            struct table_worker *w)
@@ -190,8 +197,7 @@ static struct transport_family fill_family(const struct table *table, double mu,
     const double sine = sqrt(fmax(0, 1 - mu * mu));
     const struct table_size n = table->size;
     for (int i = 0; i < n.suns; i++) {
-        const double z = table->sun_first + (table->sun_last - table->sun_first) * i / (n.suns - 1);
-        const double sun_mu = fmin(1, table->sun_centre + table->sun_width * sinh(z));
+        const double sun_mu = table_sun_mu(table, i);
         const double sun_sine = sqrt(fmax(0, 1 - sun_mu * sun_mu));
         for (int p = 0; p < n.azimuths; p++) {
             const double cos_azimuth = 1 - 2.0 * p / (n.azimuths - 1);
@@ -284,26 +290,20 @@ trl_result table_init(const trl_context *ctx, const struct solution *solution,
     return result;
 }
 
-// A place between two grid points.
-struct cell {
-    int below;
-    float part;
-};
-
-static struct cell cell_at(double coordinate, int count)
+struct table_cell table_cell_at(double coordinate, int count)
 {
     const double position = fmin(fmax(coordinate, 0), 1) * (count - 1);
     const int below = position < count - 2 ? (int)position : count - 2;
-    return (struct cell){below, (float)(position - below)};
+    return (struct table_cell){below, (float)(position - below)};
 }
 
-static struct cell altitude_cell(const struct table *table, const struct optics *optics,
-                                 double radius_m)
+static struct table_cell altitude_cell(const struct table *table, const struct optics *optics,
+                                       double radius_m)
 {
     const double ground = optics->ground_radius_m;
     const double top = optics->top_radius_m;
     const double square = fmax(0, (radius_m - ground) * (radius_m + ground));
-    return cell_at(sqrt(square / ((top - ground) * (top + ground))), table->size.altitudes);
+    return table_cell_at(sqrt(square / ((top - ground) * (top + ground))), table->size.altitudes);
 }
 
 static const float *slice_of(const struct table *table, int channel, int altitude)
@@ -315,7 +315,7 @@ static const float *slice_of(const struct table *table, int channel, int altitud
 void table_slice(const struct table *table, const struct optics *optics, int channel,
                  double radius_m, float *texels)
 {
-    const struct cell altitude = altitude_cell(table, optics, radius_m);
+    const struct table_cell altitude = altitude_cell(table, optics, radius_m);
     const float *a = slice_of(table, channel, altitude.below);
     const float *b = slice_of(table, channel, altitude.below + 1);
     const size_t count = slice_floats(table);
@@ -338,8 +338,8 @@ static float interpolate_log(float a, float b, float part)
 void table_slice_at_sun(const struct table *table, const struct optics *optics, int channel,
                         double radius_m, double sun_mu, float *texels)
 {
-    const struct cell altitude = altitude_cell(table, optics, radius_m);
-    struct cell sun = cell_at(
+    const struct table_cell altitude = altitude_cell(table, optics, radius_m);
+    struct table_cell sun = table_cell_at(
         sky_map_sun(sun_mu, table->sun_centre, table->sun_width, table->sun_first, table->sun_last),
         table->size.suns);
     const double z = asinh((sun_mu - table->sun_centre) / table->sun_width);

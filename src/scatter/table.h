@@ -46,6 +46,16 @@ struct table_size table_size_default(void);
 struct table_size table_size_draft(void);       // a ninth of the work: soft at the horizon
 size_t table_texels(const struct table *table); // floats in all channels
 
+// The cosine of the star's zenith angle at a sun of the grid: the inverse of sky_map_sun.
+double table_sun_mu(const struct table *table, int sun);
+
+// A place between two of `count` grid points, from a coordinate in [0, 1].
+struct table_cell {
+    int below;
+    float part;
+};
+struct table_cell table_cell_at(double coordinate, int count);
+
 // Altitudes are uniform in sqrt(radius^2 - ground^2). The caller has set out->size.
 TRL_MUST_USE trl_result table_init(const trl_context *ctx, const struct solution *solution,
                                    const struct peaked *peaked, const struct bands *bands,

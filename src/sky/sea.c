@@ -15,9 +15,11 @@ enum { RINGS = 10, SPOKES = 16, FACETS = RINGS * SPOKES };
 // A facet as seen in a direction: its share of what is seen, and where it mirrors.
 struct facet {
     double weight, reflectance;
-    double mu;     // of the mirrored ray
-    double turn_x; // its horizontal direction, from the one away from the eye: cosine
-    double turn_y; // sine
+    double share;           // of the mirrored light: both together, of all
+    double mu;              // of the mirrored ray
+    double turn_x;          // its horizontal direction, from the one away from the eye: cosine
+    double turn_y;          // sine
+    struct table_cell view; // of the 4D table, in that direction
 };
 
 // The facets that a view sees, in the frame whose x axis points away from the eye. Each is seen as
@@ -81,31 +83,9 @@ struct seen_sky {
     float *slices[1 + TABLE_MAX_PEAKED];
 };
 
-struct cell {
-    int below;
-    float part;
-};
-
-static struct cell cell_of(double x, int count)
-{
-    const double at = fmin(fmax(x, 0), 1) * (count - 1);
-    const int below = at < count - 2 ? (int)at : count - 2;
-    return (struct cell){below, (float)(at - below)};
-}
-
-// The inverse of sky_map_sun.
-static double table_sun_mu(const struct table *table, int sun)
-{
-    const double x = (double)sun / (table->size.suns - 1);
-    return fmin(table->sun_centre +
-                    table->sun_width *
-                        sinh(table->sun_first + x * (table->sun_last - table->sun_first)),
-                1);
-}
-
 // XYZ of one channel, without its phase function.
 static void look_up(const float *slice, const struct table_size *n, const int sun,
-                    const struct cell cells[2], float xyz[3])
+                    const struct table_cell cells[2], float xyz[3])
 {
     const size_t row = (size_t)n->azimuths * TEXEL_FLOATS;
     const float *low = slice + ((size_t)cells[0].below * (size_t)n->suns + (size_t)sun) * row +
@@ -118,30 +98,41 @@ static void look_up(const float *slice, const struct table_size *n, const int su
     }
 }
 
-// Adds the radiance of the sky in a direction, by a weight.
-static void add_sky(const struct seen_sky *sky, const double direction[3], int sun, double sum[3])
+// Of the table at the ground.
+static struct table_cell view_cell(const struct atmosphere *a, double mu)
 {
-    const struct atmosphere *a = sky->atmosphere;
     const double ground = a->optics->ground_radius_m;
     const double height = a->optics->top_radius_m - ground;
-    const double mu = direction[0], nu = direction[1], weight = direction[2];
+    const double square = height * (2 * ground + height);
     const double along = ground * mu;
-    const double way = height * (2 * ground + height) /
-                       (sqrt(along * along + height * (2 * ground + height)) + along);
-    const double longest = sqrt(height * (2 * ground + height));
-    const double sun_mu = table_sun_mu(&a->table, sun);
-    const double sines = sqrt(fmax((1 - mu * mu) * (1 - sun_mu * sun_mu), 1e-12));
-    const double azimuth = sky_map_azimuth(fmin(fmax((nu - mu * sun_mu) / sines, -1), 1));
-    const struct cell cells[2] = {cell_of(sky_map_view(way, height, longest), a->table.size.views),
-                                  cell_of(azimuth, a->table.size.azimuths)};
+    const double way = square / (sqrt(along * along + square) + along);
+    return table_cell_at(sky_map_view(way, height, sqrt(square)), a->table.size.views);
+}
+
+// One of the table's suns.
+struct seen_sun {
+    int index;
+    double mu;
+};
+
+// Adds the radiance of the sky where a facet mirrors, at the angle to the sun whose cosine is nu.
+static void add_sky(const struct seen_sky *sky, const struct facet *facet,
+                    const struct seen_sun *sun, double nu, double sum[3])
+{
+    const struct atmosphere *a = sky->atmosphere;
+    const double mu = facet->mu;
+    const double sines = sqrt(fmax((1 - mu * mu) * (1 - sun->mu * sun->mu), 1e-12));
+    const double azimuth = sky_map_azimuth(fmin(fmax((nu - mu * sun->mu) / sines, -1), 1));
+    const struct table_cell cells[2] = {facet->view,
+                                        table_cell_at(azimuth, a->table.size.azimuths)};
     for (int c = 0; c < a->table.channels; c++) {
         const double phase =
             c == 0 ? phase_rayleigh(nu)
                    : phase_value(&a->medium.constituents[a->peaked.constituent[c - 1]].phase, nu);
         float xyz[3];
-        look_up(sky->slices[c], &a->table.size, sun, cells, xyz);
+        look_up(sky->slices[c], &a->table.size, sun->index, cells, xyz);
         for (int k = 0; k < 3; k++) {
-            sum[k] += weight * phase * (double)xyz[k];
+            sum[k] += facet->share * phase * (double)xyz[k];
         }
     }
 }
@@ -180,10 +171,13 @@ static void fill_view(const struct seen_sky *sky, const struct sky_sea *sea, int
     for (int i = 0; i < FACETS; i++) {
         reflectance += facets[i].weight * facets[i].reflectance;
     }
-    const int suns = a->table.size.suns;
-    for (int sun = 0; sun < suns; sun++) {
-        const double sun_mu = table_sun_mu(&a->table, sun);
-        const double sun_sine = sqrt(fmax(1 - sun_mu * sun_mu, 0));
+    for (int i = 0; i < FACETS; i++) {
+        facets[i].share = facets[i].weight * facets[i].reflectance / reflectance;
+        facets[i].view = view_cell(a, facets[i].mu);
+    }
+    for (int index = 0; index < a->table.size.suns; index++) {
+        const struct seen_sun sun = {index, table_sun_mu(&a->table, index)};
+        const double sun_sine = sqrt(fmax(1 - sun.mu * sun.mu, 0));
         for (int az = 0; az < SEA_MIRROR_AZIMUTHS; az++) {
             const double half = asin((double)az / (SEA_MIRROR_AZIMUTHS - 1));
             const double cosine = cos(2 * half), sine = sin(2 * half);
@@ -192,14 +186,13 @@ static void fill_view(const struct seen_sky *sky, const struct sky_sea *sea, int
                 const struct facet *f = &facets[i];
                 const double level = sqrt(fmax(1 - f->mu * f->mu, 0));
                 const double nu =
-                    f->mu * sun_mu + level * sun_sine * (f->turn_x * cosine + f->turn_y * sine);
-                const double direction[3] = {f->mu, nu, f->weight * f->reflectance / reflectance};
+                    f->mu * sun.mu + level * sun_sine * (f->turn_x * cosine + f->turn_y * sine);
                 if (f->weight > 0) {
-                    add_sky(sky, direction, sun, xyz);
+                    add_sky(sky, f, &sun, nu, xyz);
                 }
             }
             store_bands(&a->bands, xyz,
-                        texels + ((size_t)sun * SEA_LEVELS * SEA_MIRROR_AZIMUTHS + (size_t)az) *
+                        texels + ((size_t)index * SEA_LEVELS * SEA_MIRROR_AZIMUTHS + (size_t)az) *
                                      BAND_COUNT);
         }
     }
