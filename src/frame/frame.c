@@ -279,7 +279,10 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
     if (moon.is_main) {
         shading.sun_direction = moon.sight.direction;
     }
-    trl_result result = ground_draw(&frame->ground, &shading, shown->time_s, &frame->clock);
+    const struct ground_extras extras = {.has_sky_view = sky->model->reads_sky_view,
+                                         .has_facets = sky->model->reads_facets,
+                                         .time_s = shown->time_s};
+    trl_result result = ground_draw(&frame->ground, &shading, &extras, &frame->clock);
     struct sky_view view = {.camera = camera,
                             .highest_m = highest_m,
                             .surface = ground_surface(&frame->ground),

@@ -319,8 +319,8 @@ static trl_result draw_sky_view(struct ground *ground, const struct camera *came
                : result;
 }
 
-trl_result ground_draw(struct ground *ground, const struct camera *camera, double time_s,
-                       struct frame_clock *clock)
+trl_result ground_draw(struct ground *ground, const struct camera *camera,
+                       const struct ground_extras *extras, struct frame_clock *clock)
 {
     if (ground->is_bare) {
         return TRL_OK;
@@ -348,12 +348,13 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera, doubl
                                                       ground->region_m};
         result = terrain_compose_draw(&ground->compose, &inputs, &ground->surface_target);
     }
-    if (result == TRL_OK && ground->has_waves) {
+    if (result == TRL_OK && ground->has_waves && extras->has_facets) {
         frame_clock_part(clock, "waves");
-        const struct facets_inputs inputs = {camera, time_s, &ground->position, &ground->albedo};
+        const struct facets_inputs inputs = {camera, extras->time_s, &ground->position,
+                                             &ground->albedo};
         result = facets_draw(&ground->facets, &inputs);
     }
-    if (result == TRL_OK) {
+    if (result == TRL_OK && extras->has_sky_view) {
         frame_clock_part(clock, "sky view");
         result = draw_sky_view(ground, camera);
     }

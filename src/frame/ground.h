@@ -93,9 +93,14 @@ struct mesher_stats ground_mesher_stats(const struct ground *ground);
 // Makes the buffers anew. After a failure there are none, and it must be called again.
 TRL_MUST_USE trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height);
 
-// `time_s`: of the waves.
+// Beside what every picture has.
+struct ground_extras {
+    bool has_sky_view; // else the alphas of lights and region are what terrain/compose.h says
+    bool has_facets;   // of the ocean, if there is one, at a time
+    double time_s;
+};
 TRL_MUST_USE trl_result ground_draw(struct ground *ground, const struct camera *camera,
-                                    double time_s, struct frame_clock *clock);
+                                    const struct ground_extras *extras, struct frame_clock *clock);
 
 // What the sky pass lights: all NULL for a bare sphere.
 struct sky_surface ground_surface(const struct ground *ground);
