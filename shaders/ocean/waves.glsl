@@ -9,8 +9,6 @@ uniform vec4 u_wave_range; // radius of the sea (m), distance of the eye from th
                            // square slope of what is shorter than all waves
 uniform mat3 u_wave_local_from_planet;
 
-// Where a window leaves less of a wave than this, it and all shorter ones are roughness.
-#define WAVES_LEAST_WEIGHT 0.02
 // Beyond this part of the radius no wave is looked at: series of angles end there.
 #define WAVES_REACH 0.19
 
@@ -40,7 +38,7 @@ GerstnerSum waves_sum(GerstnerPlace p, vec2 x, vec2 y, float least)
         for (int lane = 0; lane < 4; lane++) {
             GerstnerWave w = waves_fetch(g, lane);
             is_seen =
-                is_seen && near * gerstner_weight(w.wavenumber * least, 0.0) > WAVES_LEAST_WEIGHT;
+                is_seen && near * gerstner_weight(w.wavenumber * least, 0.0) > GERSTNER_LEAST_WEIGHT;
             if (!is_seen) {
                 float steep = w.amplitude * w.wavenumber;
                 sum.lost_square += 0.5 * steep * steep;

@@ -153,6 +153,9 @@ SHARED_FN GerstnerSum gerstner_add(GerstnerSum s, GerstnerWave w, GerstnerRipple
     return s;
 }
 
+// Where a window leaves less of a wave than this, it and all shorter ones are roughness.
+#define GERSTNER_LEAST_WEIGHT 0.02
+
 // What is left of an amplitude under a Gaussian window over a pixel, whose sides advance the wave
 // by these angles: the window's deviation is half a side.
 SHARED_FN Number gerstner_weight(Angle along_x, Angle along_y)

@@ -4,9 +4,6 @@
 
 #include <math.h>
 
-// WAVES_LEAST_WEIGHT of shaders/ocean/waves.glsl.
-static const double LEAST_WEIGHT = 0.02;
-
 trl_result wave_texture_init(struct gpu *gpu, const struct waves *waves, struct wave_texture *out)
 {
     *out = (struct wave_texture){.gpu = gpu, .waves = waves};
@@ -68,7 +65,7 @@ static uint32_t count_shown(const struct wave_texture *t, double least_m, double
     while (shown > 0) {
         const uint32_t first = (shown - 1) * WAVES_LANES;
         const GerstnerWave longest = waves_view_get(t->view, first);
-        if (gerstner_weight(longest.wavenumber * least_m, 0) > LEAST_WEIGHT) {
+        if (gerstner_weight(longest.wavenumber * least_m, 0) > GERSTNER_LEAST_WEIGHT) {
             break;
         }
         for (uint32_t i = first; i < first + WAVES_LANES; i++) {
