@@ -37,8 +37,8 @@ GerstnerSum waves_sum(GerstnerPlace p, vec2 x, vec2 y, float least)
     for (int g = 0; g < u_wave_groups; g++) {
         for (int lane = 0; lane < 4; lane++) {
             GerstnerWave w = waves_fetch(g, lane);
-            is_seen =
-                is_seen && near * gerstner_weight(w.wavenumber * least, 0.0) > GERSTNER_LEAST_WEIGHT;
+            is_seen = is_seen &&
+                      near * gerstner_weight(w.wavenumber * least, 0.0) > GERSTNER_LEAST_WEIGHT;
             if (!is_seen) {
                 float steep = w.amplitude * w.wavenumber;
                 sum.lost_square += 0.5 * steep * steep;

@@ -4,6 +4,7 @@
 
 #include "frame/daylight.h"
 #include "ocean/sea.h"
+#include "ocean/water.h"
 #include "shared/sea.glsl"
 
 // Where the eye sees most.
@@ -16,7 +17,7 @@ void frame_describe_sea(const struct trl_scene *scene, struct sky_sea *out)
     const struct ocean_desc *ocean = &scene->ocean;
     *out = (struct sky_sea){.is_there = ocean->is_there,
                             .mean_square_slope = sea_mean_square_slope(&ocean->waves),
-                            .index = sea_refractive_index(&ocean->water, MIDDLE_NM),
+                            .index = water_refractive_index(&ocean->water, MIDDLE_NM),
                             .white_share = sea_whitecap_share(&ocean->waves),
                             .white_albedo = SEA_WHITECAP_ALBEDO};
     for (int i = 0; ocean->is_there && i < SKY_SEA_DEPTHS; i++) {

@@ -18,20 +18,6 @@ double sea_whitecap_share(const struct ocean_waves *waves)
     return fmin(waves->whitecaps * 3.84e-6 * pow(waves->wind_m_s, 3.41), 1);
 }
 
-double sea_refractive_index(const struct ocean_water *water, double nm)
-{
-    return water_refractive_index(water, nm);
-}
-
-struct sea_optics sea_optics_at(const struct ocean_water *water, double nm)
-{
-    const struct water_optics o = water_optics_at(water, nm);
-    return (struct sea_optics){.absorption = o.absorption_per_m,
-                               .scattering = o.clear_per_m + o.particles_per_m,
-                               .backscattering =
-                                   o.clear_per_m / 2 + o.particles_per_m * o.backscatter};
-}
-
 double sea_diffuse_reflectance(double index)
 {
     enum { STEPS = 256 };
@@ -51,14 +37,15 @@ static const double DOWNWARD_COSINE = 0.85;
 // Limnol. Oceanogr. 39, Eq. 9a.
 double sea_water_albedo(const struct ocean_desc *ocean, double depth_m, double nm)
 {
-    const struct sea_optics o = sea_optics_at(&ocean->water, nm);
-    const double sum = fmax(o.absorption + o.backscattering, 1e-12);
-    const double deep = 0.33 * o.backscattering / sum;
+    const struct water_optics o = water_optics_at(&ocean->water, nm);
+    const double back = o.clear_per_m / 2 + o.particles_per_m * o.backscatter;
+    const double sum = fmax(o.absorption_per_m + back, 1e-12);
+    const double deep = 0.33 * back / sum;
     const double left = exp(-2 * sum / DOWNWARD_COSINE * depth_m);
     const double below = deep + (spectrum_at(&ocean->bed.albedo, nm) - deep) * left;
     // Light goes back and forth below the surface, whose inner reflectance follows from the outer
     // one by reciprocity.
-    const double index = sea_refractive_index(&ocean->water, nm);
+    const double index = water_refractive_index(&ocean->water, nm);
     const double inner = 1 - (1 - sea_diffuse_reflectance(index)) / (index * index);
     return below / (1 - inner * below) / (index * index);
 }

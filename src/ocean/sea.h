@@ -16,14 +16,6 @@ double sea_whitecap_share(const struct ocean_waves *waves);
 // Albedo of what is white, streaks and patches that dissolve included: Koepke 1984, Appl. Opt. 23.
 #define SEA_WHITECAP_ALBEDO 0.22
 
-double sea_refractive_index(const struct ocean_water *water, double nm);
-
-// Of the water with all that is in it, per m.
-struct sea_optics {
-    double absorption, scattering, backscattering;
-};
-struct sea_optics sea_optics_at(const struct ocean_water *water, double nm);
-
 // Reflectance of a smooth boundary for light that comes from everywhere alike, from above.
 double sea_diffuse_reflectance(double index);
 

@@ -3,9 +3,8 @@
 #ifndef OCEAN_VOLUME_H
 #define OCEAN_VOLUME_H
 // Light in a column of water with a flat surface above and a Lambertian bed below: all orders of
-// scattering, with reflection and refraction by the surface on both ways. docs/physics.md,
-// *Light in
-// the water*.
+// scattering, with reflection and refraction by the surface on both ways. docs/physics.md, *Light
+// in the water*.
 
 #include "ocean/slab.h"
 #include "ocean/water_phase.h"
@@ -54,9 +53,8 @@ struct volume_table {
     double nm[VOLUME_WAVELENGTHS];
     double index, critical; // cosine of the refracted grazing ray
     struct volume_column column[VOLUME_WAVELENGTHS];
-    // [depth][sun][view][order][wavelength]: of cos(order * azimuth), over that power of
-    // the product
-    // of the sines of both refracted rays
+    // [depth][sun][view][order][wavelength]: of cos(order * azimuth), over that power of the
+    // product of the sines of both refracted rays
     float star[VOLUME_DEPTHS][VOLUME_ANGLES][VOLUME_ANGLES][VOLUME_ORDERS][VOLUME_WAVELENGTHS];
     float sky[VOLUME_DEPTHS][VOLUME_ANGLES][VOLUME_WAVELENGTHS]; // [depth][view][wavelength]
 };

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 #ifndef OCEAN_WATER_H
 #define OCEAN_WATER_H
-// Inherent optical properties of natural water, each from its source. docs/physics.md, *Light
-// in the
-// water*.
+// Inherent optical properties of natural water, each from its source. docs/physics.md, *Light in
+// the water*.
 
 #include "ocean/ocean.h"
 

@@ -69,10 +69,9 @@ double water_phase_value(const struct water_phase *phase, double cosine)
            (1 - phase->clear_share) * particles_value(phase, square);
 }
 
-// The particles' phase function with a blunt peak: below this angle the logarithm is a
-// parabola that
-// goes on with the value and the slope. Moments beyond SLAB_MOMENTS are then below 1 %, and what is
-// left of them has no ripples where it goes back, which those of a sharp peak have.
+// The particles' phase function with a blunt peak: below this angle the logarithm is a parabola
+// that goes on with the value and the slope. Moments beyond SLAB_MOMENTS are then below 1 %, and
+// what is left of them has no ripples where it goes back, which those of a sharp peak have.
 static const double BLUNT = 0.16;
 
 static double blunt_value(const struct water_phase *p, double angle)

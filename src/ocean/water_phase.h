@@ -8,8 +8,7 @@
 #include "ocean/water.h"
 
 // Fournier and Forand 1994, Proc. SPIE 2258, as Fournier and Jonasz 1999, Proc. SPIE 3761:
-// particles
-// with a power law of sizes.
+// particles with a power law of sizes.
 struct water_phase {
     double clear_share;  // of all scattering, by the liquid
     double index, slope; // of the particles: refractive index relative to water, exponent of sizes

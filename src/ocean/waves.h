@@ -58,8 +58,8 @@ struct waves_view {
 };
 
 // For an eye above that place (any length but 0), which is the anchor; axes east, north and up.
-// Phases are found in double: after any number of days they are right to
-// 1e-16 of the angle turned through.
+// Phases are found in double: after any number of days they are right to 1e-16 of the angle turned
+// through.
 void waves_view_make(const struct waves *waves, struct vec3 place, double time_s,
                      struct waves_view *out);
 
