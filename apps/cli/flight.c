@@ -85,6 +85,7 @@ struct plan {
     struct fly_flight legs[STOPS_MAX];
     int count;
     double whole_s; // as planned
+    double least_m; // above the ground; the ends may be lower
 };
 
 static double find_ground_m(const struct flight_desc *desc, const trl_view *view)
@@ -119,6 +120,9 @@ static enum exit_status add_leg(const struct flight_desc *desc, const trl_view *
     leg->from_ground_m = find_ground_m(desc, from);
     leg->to_ground_m = find_ground_m(desc, to);
     plan->whole_s += leg->duration_s;
+    const double from_m = from->altitude_m - leg->from_ground_m;
+    const double to_m = to->altitude_m - leg->to_ground_m;
+    plan->least_m = fmin(plan->least_m, 0.5 * fmin(from_m, to_m));
     return EXIT_OK;
 }
 
@@ -156,15 +160,8 @@ static trl_view find_view(const struct plan *plan, double part)
 static double find_lack(const struct flight_desc *desc, const struct plan *plan,
                         const trl_view *view)
 {
-    double least_m = clearance_m;
-    for (int i = 0; i < plan->count; i++) {
-        const struct fly_flight *leg = &plan->legs[i];
-        const double from_m = leg->from_view.altitude_m - leg->from_ground_m;
-        const double to_m = leg->to_view.altitude_m - leg->to_ground_m;
-        least_m = fmin(least_m, 0.5 * fmin(from_m, to_m));
-    }
-    return fmax(0,
-                find_ground_m(desc, view) + fmax(least_m, fly_clearance_m / 2) - view->altitude_m);
+    return fmax(0, find_ground_m(desc, view) + fmax(plan->least_m, fly_clearance_m / 2) -
+                       view->altitude_m);
 }
 
 static int clamp_frame(int frame, int frames)
@@ -266,7 +263,7 @@ static enum exit_status draw_frames(const struct flight_desc *desc, const trl_vi
 
 enum exit_status flight_draw(const struct flight_desc *desc)
 {
-    struct plan plan = {.count = 0};
+    struct plan plan = {.least_m = clearance_m};
     const double begun_s = desc->app->progress.started_s;
     enum exit_status status = make_plan(desc, &plan);
     if (status != EXIT_OK) {

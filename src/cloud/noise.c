@@ -140,8 +140,8 @@ static void fill_values(uint32_t seed, float *values)
     }
 }
 
-// Values become their rank, below 1 so that no cover is no cloud, by
-// a histogram that is fine enough for 2048 steps.
+// Values become their rank, below 1 so that no cover is no cloud, by a histogram that is fine
+// enough for 2048 steps.
 static void store_ranks(const float *values, uint32_t *below, uint16_t *texels)
 {
     const size_t count = (size_t)CLOUD_SIDE * CLOUD_SIDE * CLOUD_SIDE;

@@ -44,7 +44,7 @@ static GerstnerSum sum_on_cpu(const struct scene *s, struct vec3 place, double s
         const GerstnerRipple r = gerstner_ripple(w, p, RADIUS_M, atan2(turn.rise, turn.run));
         const double k = w.wavenumber * side_m;
         const double weight = gerstner_weight(k * r.dx, k * r.dy);
-        // Less than WAVES_LEAST_WEIGHT is not drawn.
+        // Less than GERSTNER_LEAST_WEIGHT is not drawn.
         sum = gerstner_add(sum, w, r, weight > 0.02 ? weight : 0);
     }
     sum.lost_square += s->waves.rest_square;

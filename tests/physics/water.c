@@ -67,9 +67,8 @@ static void phase_functions_are_whole_and_have_their_backscatter(void **state)
     assert_near(water_phase_make(&petzold).slope, 3.5835, 2e-3);
 }
 
-// Nothing is lost in clear water over a white bed: below an even sky it has the sky's
-// radiance, more
-// by the square of the index in the water, whatever it scatters.
+// Nothing is lost in clear water over a white bed: below an even sky it has the sky's radiance,
+// more by the square of the index in the water, whatever it scatters.
 static void a_furnace_is_even(void **state)
 {
     for (int i = 0; i < 2; i++) {

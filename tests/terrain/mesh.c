@@ -75,6 +75,22 @@ static const struct camera_place PLACES[] = {
     {.latitude = 3, .longitude = -77}};
 enum { PLACE_COUNT = sizeof PLACES / sizeof PLACES[0] };
 
+static void check_altitudes(struct planet *p, const struct camera *camera, double tolerance_m)
+{
+    fixture_picture_draw(&p->picture, p->mesher, camera);
+    for (int k = 0; k < PICTURE_SIDE * PICTURE_SIDE; k += 37) {
+        const float *pixel = p->picture.pixels + 4 * k;
+        assert_true(pixel[3] > -1e8f);
+        const struct vec3 at = {camera->position_m.x + (double)pixel[0],
+                                camera->position_m.y + (double)pixel[1],
+                                camera->position_m.z + (double)pixel[2]};
+        const double truth = surface_altitude(&p->surface, at);
+        assert_close((double)pixel[3], truth, tolerance_m);
+        // The position lies where its altitude says, but for the same sag.
+        assert_close(vec3_length(at) - R, truth, tolerance_m);
+    }
+}
+
 static void test_altitudes_are_those_of_the_cpu(void **state)
 {
     struct planet p;
@@ -84,21 +100,10 @@ static void test_altitudes_are_those_of_the_cpu(void **state)
         place.pitch = -90;
         place.fov = 80;
         const struct camera camera = place_camera(&p, place, 1500);
-        fixture_picture_draw(&p.picture, p.mesher, &camera);
-        for (int k = 0; k < PICTURE_SIDE * PICTURE_SIDE; k += 37) {
-            const float *pixel = p.picture.pixels + 4 * k;
-            assert_true(pixel[3] > -1e8f);
-            const struct vec3 at = {camera.position_m.x + (double)pixel[0],
-                                    camera.position_m.y + (double)pixel[1],
-                                    camera.position_m.z + (double)pixel[2]};
-            const double truth = surface_altitude(&p.surface, at);
-            // Cells near the camera are at most a tenth of the finest texel in reach, or of the
-            // height: the inset bends by 120 m (8 rad/deg * 0.02 deg)^2 = 3 m a texel squared,
-            // the feather's slope over it less. Floats of some km: 1 mm.
-            assert_close((double)pixel[3], truth, 1.0);
-            // The position lies where its altitude says, but for the same sag.
-            assert_close(vec3_length(at) - R, truth, 1.0);
-        }
+        // Cells near the camera are at most a tenth of the finest texel in reach, or of the
+        // height: the inset bends by 120 m (8 rad/deg * 0.02 deg)^2 = 3 m a texel squared,
+        // the feather's slope over it less. Floats of some km: 1 mm.
+        check_altitudes(&p, &camera, 1.0);
     }
     destroy_planet(&p);
 }
@@ -118,15 +123,7 @@ static void test_a_grid_of_another_size_is_the_same_ground(void **state)
     place.pitch = -90;
     place.fov = 80;
     const struct camera camera = place_camera(&p, place, 1500);
-    fixture_picture_draw(&p.picture, p.mesher, &camera);
-    for (int k = 0; k < PICTURE_SIDE * PICTURE_SIDE; k += 37) {
-        const float *pixel = p.picture.pixels + 4 * k;
-        assert_true(pixel[3] > -1e8f);
-        const struct vec3 at = {camera.position_m.x + (double)pixel[0],
-                                camera.position_m.y + (double)pixel[1],
-                                camera.position_m.z + (double)pixel[2]};
-        assert_close((double)pixel[3], surface_altitude(&p.surface, at), 4.0);
-    }
+    check_altitudes(&p, &camera, 4.0);
     destroy_planet(&p);
 }
 
