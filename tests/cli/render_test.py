@@ -447,10 +447,10 @@ class Cache(ProgramTest):
         self.assertEqual(self.draw(scene, "read.exr")[0], fresh)
         for table in tables:
             whole = table.read_bytes()
-            broken = [whole[:len(whole) // 2], self.flip(whole, len(whole) - 1), b""]
+            # Its head, its numbers, its length: each of them is looked at. Every picture solves again.
+            broken = [b"", whole + b"x", self.flip(whole, 0), self.flip(whole, len(whole) - 1)]
             if not IS_SLOW:
-                broken += [whole[:-1], whole + b"x"]
-                broken += [self.flip(whole, place) for place in [0, 9, len(whole) // 2]]
+                broken += [whole[:len(whole) // 2]]
             for content in broken:
                 self.break_and_draw(scene, fresh, table, content)
             self.assertEqual(table.read_bytes(), whole)

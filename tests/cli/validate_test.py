@@ -84,13 +84,16 @@ class Validate(ProgramTest):
             self.assertAlmostEqual(exact / traced, 1.0, delta=0.2)
 
     def test_page(self):
+        # A name that could break the page.
+        scene = dict(json.loads(self.scene.read_text()), name="<b>&\"Thin")
+        self.scene = self.write_scene(scene, "odd.json")
         done = self.validate("--html", "report.html")
         self.assertIn("spectral: 9 views", done.stdout)
         text = (self.work / "report.html").read_text()
         self.assertTrue(text.startswith("<!DOCTYPE html>"))
         page = Page(text)
         words = "".join(page.text)
-        for word in ["What the numbers mean", "When the spectral model passes", "All scenes", "path tracer", "Thin", "sun 6° below the horizon"]:
+        for word in ["What the numbers mean", "When the spectral model passes", "All scenes", "path tracer", "<b>&\"Thin", "sun 6° below the horizon"]:
             self.assertIn(word, words)
         # Nothing is fetched: pictures stand in the page, links stay in it.
         self.assertGreater(len(page.links), 9)
@@ -119,20 +122,14 @@ class Validate(ProgramTest):
             self.assertGreaterEqual(min(reference["paths"]), 64)
             floor = 0.01 * sum(reference["radiance"]) / 18
             noise = [error / max(value, floor) for error, value in zip(reference["standard_error"], reference["radiance"])]
-            self.assertAlmostEqual(sum(noise) / 18 / reference["noise"], 1.0, delta=1e-5)
+            # Each number is printed to six digits, so three may be wrong by 5e-6 of themselves.
+            self.assertAlmostEqual(sum(noise) / 18 / reference["noise"], 1.0, delta=2e-5)
 
     def test_what_is_wrong_is_told(self):
         self.expect_failure(2, ["validate", self.scene, "--paths", "1"], ["--paths"])
         self.expect_failure(2, ["validate", self.scene, "--paths", "5", "--seconds", "5"], ["--seconds"])
         self.expect_failure(1, ["validate", "missing.json"], ["missing.json"])
         self.expect_failure(1, ["validate", self.scene, "--html", "none/report.html"], ["none/report.html"])
-
-    def test_names_cannot_break_the_page(self):
-        scene = dict(json.loads(self.scene.read_text()), name="<b>&\"")
-        self.scene = self.write_scene(scene, "odd.json")
-        self.validate("--html", "report.html")
-        page = Page((self.work / "report.html").read_text())
-        self.assertIn("<b>&\"", "".join(page.text))
 
 
 if __name__ == "__main__":
