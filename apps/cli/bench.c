@@ -147,6 +147,14 @@ trl_result bench_load_scene(const struct bench_job *job, const char *file, trl_s
     return result;
 }
 
+void bench_show(const struct bench_job *job)
+{
+    if (!job->is_json) {
+        progress_clear(&job->app->progress);
+        bench_table_print_rows(job->table);
+    }
+}
+
 trl_renderer_desc bench_renderer_desc(const struct bench_job *job, const trl_scene *scene)
 {
     trl_renderer_desc desc = trl_renderer_desc_default();
@@ -170,6 +178,7 @@ static enum exit_status run_bench(struct app *app, const struct bench *bench,
                                   .scene = arguments->scene,
                                   .runs = (int)arguments->runs.value,
                                   .mesher = arguments->mesher.mesher,
+                                  .is_json = arguments->is_json,
                                   .table = table};
     enum exit_status status = report_result(bench->run(&job));
     progress_clear(&app->progress);

@@ -14,6 +14,7 @@ struct bench_job {
     const char *scene; // file given by the user; NULL: the bench's own
     int runs;          // 0: the bench's own number
     int mesher;        // a trl_mesher; -1: the default, or all where they are compared
+    bool is_json;      // nothing is printed before the end
     struct bench_table *table;
 };
 
@@ -24,6 +25,10 @@ static inline int bench_runs(const struct bench_job *job, int fallback)
 {
     return job->runs > 0 ? job->runs : fallback;
 }
+
+// Prints for people the rows that were measured since the last call: a long bench calls it when all
+// samples of a case are there.
+void bench_show(const struct bench_job *job);
 
 // A renderer's description with the scene and the job's mesher.
 trl_renderer_desc bench_renderer_desc(const struct bench_job *job, const trl_scene *scene);

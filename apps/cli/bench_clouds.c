@@ -115,6 +115,7 @@ static trl_result measure_cover(const struct bench_job *job, double cover)
         result = trl_scene_view(scene, view, &c.view);
         if (result == TRL_OK) {
             result = draw_case(job, &c);
+            bench_show(job);
         }
     }
     trl_renderer_destroy(&c.renderer);

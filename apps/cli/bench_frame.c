@@ -120,6 +120,7 @@ static trl_result draw_views(const struct bench_job *job, const trl_scene *scene
         job->scene ? trl_scene_view_count(scene) : sizeof bare_views / sizeof bare_views[0];
     for (size_t i = 0; result == TRL_OK && i < count; i++) {
         result = draw_view(&c, scene, job->scene ? trl_scene_view_name(scene, i) : bare_views[i]);
+        bench_show(job);
     }
     trl_renderer_destroy(&c.renderer);
     return result;

@@ -175,6 +175,7 @@ static trl_result measure_grids(struct michelic *m, int row)
         }
         result = trl_renderer_set_hemisphere(m->renderer, grids[grid] * PATCH_CELLS);
         result = result == TRL_OK ? measure_case(m, row, grid) : result;
+        bench_show(m->job);
     }
     return result;
 }

@@ -112,6 +112,7 @@ trl_result bench_run_michelic_table2(const struct bench_job *job)
             return TRL_ERROR_CANCELLED;
         }
         result = measure(job, i);
+        bench_show(job);
     }
     bench_note(job->table,
                "Ours: the pass that sums displacement, slopes and Jacobian of all waves for each "

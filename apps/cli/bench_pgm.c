@@ -120,6 +120,7 @@ static trl_result measure_view(struct pgm *p, const trl_scene *scene, int which)
             }
             result = measure_case(p, grid, screen);
             result = result == TRL_OK ? check_ground(p) : result;
+            bench_show(p->job);
         }
     }
     if (result == TRL_OK) {

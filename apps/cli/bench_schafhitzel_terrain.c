@@ -273,6 +273,7 @@ trl_result bench_run_schafhitzel_table1(const struct bench_job *job)
     trl_result result = TRL_OK;
     for (int planet = 0; planet < (job->scene ? 1 : PLANETS) && result == TRL_OK; planet++) {
         result = measure_planet(&t, planet);
+        bench_show(job);
     }
     bench_note(job->table,
                "Rates: whole frames at %u x %u, light of the model single (one 3D table); without "

@@ -51,6 +51,7 @@ static trl_result measure_scene(const struct bench_job *job, const char *scene, 
                 bench_add(job->table, (struct bench_sample){name, "first picture", "s", spent_s});
         }
     }
+    bench_show(job);
     return result;
 }
 

@@ -265,6 +265,7 @@ static trl_result measure_scene(const struct bench_job *job, const struct stream
     for (int i = 0; i < bench_runs(job, DEFAULT_RUNS) && result == TRL_OK; i++) {
         result = measure_run(&c);
     }
+    bench_show(job);
     trl_scene_destroy(&scene);
     trl_context_destroy(&c.ctx);
     return result;

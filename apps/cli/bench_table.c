@@ -127,24 +127,33 @@ static void print_row(struct bench_row *row, bool has_paper)
     }
 }
 
-void bench_table_print(struct bench_table *table)
+static void print_head(const struct bench_table *table)
 {
-    bool has_paper = false;
-    for (int i = 0; i < table->row_count; i++) {
-        has_paper = has_paper || table->rows[i].has_paper;
-    }
     printf("%s: %s\n", table->name, table->summary);
     if (table->source) {
         printf("  %s\n", table->source);
     }
     printf("  %-28s %-24s", "case", "metric");
-    if (has_paper) {
+    if (table->source) {
         printf(" %12s", "paper");
     }
     printf(" %12s %12s %-6s %4s\n", "median", "min", "unit", "runs");
-    for (int i = 0; i < table->row_count; i++) {
-        print_row(&table->rows[i], has_paper);
+}
+
+void bench_table_print_rows(struct bench_table *table)
+{
+    if (table->shown_count == 0) {
+        print_head(table);
     }
+    for (; table->shown_count < table->row_count; table->shown_count++) {
+        print_row(&table->rows[table->shown_count], table->source != NULL);
+    }
+    fflush(stdout);
+}
+
+void bench_table_print(struct bench_table *table)
+{
+    bench_table_print_rows(table);
     for (int i = 0; i < table->note_count; i++) {
         print_note(table->notes[i]);
     }

@@ -33,6 +33,7 @@ struct bench_table {
     const char *source; // the paper and where in it; NULL: a bench of our own
     struct bench_row rows[BENCH_MAX_ROWS];
     int row_count;
+    int shown_count; // of the rows, how many were printed for people
     char notes[BENCH_MAX_NOTES][BENCH_NOTE_MAX];
     int note_count;
 };
@@ -55,7 +56,11 @@ trl_result bench_add_paper(struct bench_table *table, struct bench_sample printe
 __attribute__((format(printf, 2, 3))) void bench_note(struct bench_table *table, const char *format,
                                                       ...);
 
-// The rows for people.
+// Prints the rows for people that were not printed before, which must have all their samples;
+// before the first of them, the head of the table.
+void bench_table_print_rows(struct bench_table *table);
+
+// The rows that are left, and the notes.
 void bench_table_print(struct bench_table *table);
 
 // The same as one JSON object on one line. EXIT_FAILED is reported.

@@ -12,7 +12,7 @@
 enum {
     DEFAULT_FRAMES = 3,
     FLIGHT_FRAMES = 120,
-    FLIGHT_STEP = 2,
+    STEP = 8, // of the pixels along a row and a column, one in so many is looked at
     TIMINGS_MAX = 32,
     MAX_MESHERS = 16
 };
@@ -122,6 +122,7 @@ static trl_result measure_view(struct terrain_bench *b, const struct bench_terra
     desc.view = &view->view;
     desc.width = SCREEN.width;
     desc.height = SCREEN.height;
+    desc.step = STEP;
     trl_mesh_check *check = NULL;
     trl_result result = trl_mesh_check_create(b->ground, b->renderer, &desc, &check);
     if (result == TRL_OK) {
@@ -144,7 +145,7 @@ static trl_result fly(struct terrain_bench *b)
         desc.view = &view;
         desc.width = SCREEN.width;
         desc.height = SCREEN.height;
-        desc.step = FLIGHT_STEP;
+        desc.step = STEP;
         desc.has_edges = false;
         trl_mesh_check *check = NULL;
         trl_mesh_change change = {0};
@@ -213,6 +214,7 @@ static trl_result measure_meshers(struct terrain_bench *b, const struct bench_te
             result = trl_renderer_set_mesher(b->renderer, (trl_mesher)m);
             if (result == TRL_OK) {
                 result = view ? measure_view_and_time(b, view) : sum_up(b);
+                bench_show(b->job);
             }
         }
     }

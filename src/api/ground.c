@@ -39,7 +39,7 @@ void trl_ground_destroy(trl_ground **ground)
     }
     const trl_context *ctx = (*ground)->ctx;
     relief_finish(&(*ground)->relief);
-    mem_free(ctx, (*ground)->hits);
+    mesh_truth_finish(&(*ground)->truth);
     mem_free(ctx, *ground);
     *ground = NULL;
 }
@@ -91,23 +91,14 @@ static bool is_same_sight(const struct camera *a, const struct camera *b)
 trl_result ground_cast(trl_ground *ground, const struct reference_caster *caster,
                        const uint32_t size[2])
 {
-    const bool is_cast = ground->hits && is_same_sight(&ground->camera, caster->camera);
-    if (is_cast && memcmp(size, ground->size, sizeof ground->size) == 0) {
+    const struct mesh_truth *truth = &ground->truth;
+    const bool is_as_large = truth->columns == size[0] && truth->rows == size[1];
+    if (truth->hits && is_as_large && is_same_sight(&ground->camera, caster->camera)) {
         return TRL_OK;
     }
-    mem_free(ground->ctx, ground->hits);
-    ground->hits = mem_alloc(ground->ctx, (size_t)size[0] * size[1], sizeof *ground->hits);
-    if (!ground->hits) {
-        return TRL_ERROR_MEMORY;
-    }
+    mesh_truth_finish(&ground->truth);
     ground->camera = *caster->camera;
-    memcpy(ground->size, size, sizeof ground->size);
-    const trl_result result = reference_caster_picture(ground->ctx, caster, size, ground->hits);
-    if (result != TRL_OK) {
-        mem_free(ground->ctx, ground->hits);
-        ground->hits = NULL;
-    }
-    return result;
+    return mesh_truth_init(ground->ctx, caster, size, &ground->truth);
 }
 
 static void copy_vector(struct vec3 from, double to[3])
@@ -139,7 +130,7 @@ trl_result trl_ground_cast(trl_ground *ground, const trl_view *view, uint32_t wi
     }
     for (size_t i = 0; result == TRL_OK && i < (size_t)width * height; i++) {
         const size_t row = height - 1 - i / width;
-        const struct reference_hit *hit = &ground->hits[row * width + i % width];
+        const struct reference_hit *hit = &ground->truth.hits[row * width + i % width];
         points[i].distance_m = hit->distance_m;
         copy_vector(hit->at_m, points[i].position_m);
         copy_vector(hit->normal, points[i].normal);

@@ -5,8 +5,8 @@
 // What a trl_ground is, for the public functions that look into it.
 
 #include "base/context.h"
+#include "frame/mesh_truth.h"
 #include "frame/relief.h"
-#include "reference/caster.h"
 #include <terrella/ground.h>
 
 struct trl_ground {
@@ -14,10 +14,8 @@ struct trl_ground {
     const struct trl_scene *scene;
     struct relief relief;
     struct reference_surface surface; // of the relief
-    // The rays last cast, lowest row first.
-    struct camera camera;
-    uint32_t size[2];
-    struct reference_hit *hits; // owned; NULL: none
+    struct mesh_truth truth;          // of the view last asked for; empty at first
+    struct camera camera;             // from which it was seen
 };
 
 // The camera of a checked view. TRL_ERROR_INVALID: it cannot be there.
@@ -27,8 +25,8 @@ TRL_MUST_USE trl_result ground_camera(const trl_ground *ground, const trl_view *
 struct reference_caster ground_caster(const trl_ground *ground, const struct camera *camera,
                                       uint32_t height);
 
-// Casts through size[0] x size[1] places of the caster's picture into ground->hits, unless they are
-// there. TRL_ERROR_MEMORY; TRL_ERROR_CANCELLED.
+// Casts through size[0] x size[1] places of the caster's picture into ground->truth, unless they
+// are there. TRL_ERROR_MEMORY; TRL_ERROR_CANCELLED.
 TRL_MUST_USE trl_result ground_cast(trl_ground *ground, const struct reference_caster *caster,
                                     const uint32_t size[2]);
 

@@ -61,8 +61,11 @@ static trl_result make_check(trl_ground *ground, trl_renderer *renderer,
         uint32_t size[2];
         mesh_check_size(&check, size);
         result = ground_cast(ground, &check.truth, size);
+        if (result == TRL_OK) {
+            result = mesh_truth_find_edges(&ground->truth, &check.truth);
+        }
     }
-    return result == TRL_OK ? mesh_check_init(&check, desc->has_edges ? ground->hits : NULL, out)
+    return result == TRL_OK ? mesh_check_init(&check, desc->has_edges ? &ground->truth : NULL, out)
                             : result;
 }
 

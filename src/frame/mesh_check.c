@@ -5,26 +5,18 @@
 #include <math.h>
 #include <time.h>
 
-// For silhouettes the mesh is drawn FINER times as fine along columns as places are looked at; odd,
-// so that one of the rows goes through the places.
-enum { FINER = 15 };
-// Neighbouring places whose distances differ by more than this factor may have a silhouette between
-// them; what still does so at a hundredth of a pixel is one.
-static const double EDGE_RATIO = 1.25;
-static const double SURE_EDGE_RATIO = 1.1;
-static const double EDGE_PRECISION = 0.01;
+// A column of places is drawn with so many rows that a pixel of the target is as large as one of
+// the picture, nearly, for meshers may look at that; no more rows than this.
+enum { MAX_DRAWN_ROWS = 8192 };
 // Silhouettes steeper than this in the picture are left out: they are looked for along columns.
 static const double MAX_EDGE_SLOPE = 3;
 
 // What is known while a view is checked.
 struct checker {
     const struct mesh_check_desc *desc;
-    const struct reference_hit *hits;
+    const struct mesh_truth *truth; // NULL: shifts only
     struct mesh_check *check;
-    float *drawn;    // owned; columns x fine_rows x 4, lowest row first
-    double *edges_y; // owned; columns x rows: place of the silhouette above each row, in pixels
-                     // from the lower border; NAN: none
-    float *edges_m;  // owned; the distance that parts its sides; INFINITY: the sky is one
+    float *drawn; // owned; columns x fine_rows x 4, lowest row first
     uint32_t finer, fine_rows;
 };
 
@@ -111,18 +103,13 @@ static trl_result draw(struct checker *c)
 
 // ---- the ground's shift
 
-struct point {
-    double x, y; // of the picture, -1 to 1
-};
-
-static struct point find_point(const struct mesh_check *check, uint32_t column, double row)
+static struct mesh_point find_point(const struct mesh_check *check, uint32_t column, double row)
 {
-    return (struct point){(2 * column + 1.0) / check->columns - 1,
-                          (2 * row + 1.0) / check->rows - 1};
+    return mesh_truth_point((const uint32_t[2]){check->columns, check->rows}, column, row);
 }
 
 // Where the camera sees a position relative to it; false: behind it.
-static bool project(const struct camera *camera, struct vec3 at_m, struct point *out)
+static bool project(const struct camera *camera, struct vec3 at_m, struct mesh_point *out)
 {
     const double z = vec3_dot(camera->forward, at_m);
     out->x = vec3_dot(camera->right, at_m) / (z * camera->tan_half_fov_x);
@@ -130,7 +117,8 @@ static bool project(const struct camera *camera, struct vec3 at_m, struct point 
     return z > 0;
 }
 
-static double pixels_between(const struct mesh_check *check, struct point a, struct point b)
+static double pixels_between(const struct mesh_check *check, struct mesh_point a,
+                             struct mesh_point b)
 {
     return hypot((a.x - b.x) * check->camera.tan_half_fov_x,
                  (a.y - b.y) * check->camera.tan_half_fov_y) /
@@ -171,7 +159,7 @@ static double check_place(const struct checker *c, uint32_t column, uint32_t row
         place[i] = pixel[i];
     }
     place[3] = (float)(radius - check->radius_m - altitude);
-    struct point seen;
+    struct mesh_point seen;
     const bool is_seen = project(&check->camera, vec3_sub(truth, check->camera.position_m), &seen);
     return is_seen ? pixels_between(check, seen, find_point(check, column, row)) : (double)NAN;
 }
@@ -202,7 +190,7 @@ static void check_places(struct checker *c)
 
 static bool has_ground(const struct checker *c, uint32_t column, uint32_t row)
 {
-    return isfinite(c->hits[(size_t)row * c->check->columns + column].distance_m);
+    return isfinite(c->truth->hits[(size_t)row * c->check->columns + column].distance_m);
 }
 
 // Places whose eight neighbours are alike in truth, and that are drawn otherwise.
@@ -225,42 +213,15 @@ static void count_holes(struct checker *c)
 
 // ---- silhouettes
 
-// A silhouette in a column of the picture: it parts what is nearer than `parting_m` from the rest.
-struct edge {
-    double y; // pixels from the lower border
-    double parting_m;
-    bool is_near_below;
-};
-
 static double fine_pixel(const struct checker *c) // height of a row of `drawn`, in pixels
 {
     return 2 * c->check->camera.tan_half_fov_y / c->check->pixel / c->fine_rows;
 }
 
-// Closes in on what parts two neighbouring places of a column; false when it is a slope.
-static bool find_edge(const struct checker *c, uint32_t column, uint32_t row, struct edge *out)
+// Of a silhouette, in pixels from the lower border; NAN: there is none.
+static double edge_px(const struct checker *c, const struct mesh_edge *edge)
 {
-    const struct mesh_check *check = c->check;
-    const struct reference_hit *hit = &c->hits[(size_t)row * check->columns + column];
-    double m[2] = {hit->distance_m, hit[check->columns].distance_m};
-    const double low = fmin(m[0], m[1]), high = fmax(m[0], m[1]);
-    if (!(high > EDGE_RATIO * low) || isinf(low)) {
-        return false;
-    }
-    const double parting = isinf(high) ? (double)INFINITY : sqrt(low * high);
-    const bool is_near_below = m[0] < m[1];
-    double at[2] = {row, row + 1.0};
-    const double row_px = c->finer * fine_pixel(c);
-    while ((at[1] - at[0]) * row_px > EDGE_PRECISION) {
-        const double middle = 0.5 * (at[0] + at[1]);
-        const struct point p = find_point(check, column, middle);
-        const double distance = reference_caster_ray(&c->desc->truth, p.x, p.y);
-        const int side = (distance < parting) == is_near_below ? 0 : 1;
-        at[side] = middle;
-        m[side] = distance;
-    }
-    *out = (struct edge){(at[0] + at[1] + 1) / 2 * row_px, parting, is_near_below};
-    return fmax(m[0], m[1]) > SURE_EDGE_RATIO * fmin(m[0], m[1]);
+    return edge->row * c->finer * fine_pixel(c);
 }
 
 static bool is_near(const struct checker *c, uint32_t column, uint32_t fine_row, double parting_m)
@@ -271,11 +232,12 @@ static bool is_near(const struct checker *c, uint32_t column, uint32_t fine_row,
 
 // How far the drawn silhouette of the same kind is along the column, in pixels; more than the most
 // that is looked for: there is none.
-static double find_drawn_edge(const struct checker *c, uint32_t column, const struct edge *edge)
+static double find_drawn_edge(const struct checker *c, uint32_t column,
+                              const struct mesh_edge *edge)
 {
-    const double fine = fine_pixel(c);
+    const double fine = fine_pixel(c), y = edge_px(c, edge);
     const int64_t reach = (int64_t)(MESH_CHECK_MAX_EDGE / fine) + 1;
-    const int64_t middle = (int64_t)(edge->y / fine);
+    const int64_t middle = (int64_t)(y / fine);
     double nearest = (double)INFINITY;
     for (int64_t r = middle - reach; r <= middle + reach; r++) {
         if (r < 0 || r + 1 >= c->fine_rows) {
@@ -284,7 +246,7 @@ static double find_drawn_edge(const struct checker *c, uint32_t column, const st
         const bool below = is_near(c, column, (uint32_t)r, edge->parting_m);
         const bool above = is_near(c, column, (uint32_t)r + 1, edge->parting_m);
         if (below != above && below == edge->is_near_below) {
-            nearest = fmin(nearest, fabs((double)(r + 1) * fine - edge->y));
+            nearest = fmin(nearest, fabs((double)(r + 1) * fine - y));
         }
     }
     return nearest;
@@ -296,7 +258,7 @@ static double find_continued(const struct checker *c, uint32_t column, double y)
     const double reach = MAX_EDGE_SLOPE * c->desc->step;
     double nearest = (double)NAN;
     for (uint32_t row = 0; row + 1 < c->check->rows; row++) {
-        const double other = c->edges_y[(size_t)row * c->check->columns + column];
+        const double other = edge_px(c, &c->truth->edges[(size_t)row * c->check->columns + column]);
         if (fabs(other - y) <= reach && !(fabs(other - y) > fabs(nearest - y))) {
             nearest = other;
         }
@@ -322,37 +284,19 @@ static double find_cosine(const struct checker *c, uint32_t column, double y)
     return count > 0 ? 1 / hypot(1, slope / count) : 0;
 }
 
-static void find_edges(struct checker *c)
-{
-    const struct mesh_check *check = c->check;
-#pragma omp parallel for schedule(dynamic)
-    for (uint32_t column = 0; column < check->columns; column++) {
-        for (uint32_t row = 0; row + 1 < check->rows; row++) {
-            const size_t i = (size_t)row * check->columns + column;
-            struct edge edge;
-            const bool is_edge = find_edge(c, column, row, &edge);
-            c->edges_y[i] = is_edge ? edge.y : (double)NAN;
-            c->edges_m[i] = (float)(is_edge ? edge.parting_m : 0);
-        }
-    }
-}
-
 static void check_edges(struct checker *c)
 {
     struct mesh_check *check = c->check;
     struct mesh_error *error = &check->error;
     double sum = 0;
-    find_edges(c);
     for (size_t i = 0; i < (size_t)check->columns * (check->rows - 1); i++) {
+        const struct mesh_edge *edge = &c->truth->edges[i];
         const uint32_t column = (uint32_t)(i % check->columns);
-        const double cosine = isnan(c->edges_y[i]) ? 0 : find_cosine(c, column, c->edges_y[i]);
+        const double cosine = isnan(edge->row) ? 0 : find_cosine(c, column, edge_px(c, edge));
         if (!(cosine > 0)) {
             continue;
         }
-        const struct reference_hit *hit = &c->hits[i];
-        const struct edge edge = {c->edges_y[i], (double)c->edges_m[i],
-                                  hit->distance_m < hit[check->columns].distance_m};
-        const double along = find_drawn_edge(c, column, &edge);
+        const double along = find_drawn_edge(c, column, edge);
         const bool is_lost = along > MESH_CHECK_MAX_EDGE;
         const double off = is_lost ? MESH_CHECK_MAX_EDGE : along * cosine;
         error->lost_edges += is_lost;
@@ -369,23 +313,20 @@ static void checker_finish(struct checker *c)
 {
     const trl_context *ctx = c->desc->ctx;
     mem_free(ctx, c->drawn);
-    mem_free(ctx, c->edges_y);
-    mem_free(ctx, c->edges_m);
 }
 
 static trl_result checker_init(const struct mesh_check_desc *desc, struct checker *c)
 {
     const size_t count = (size_t)c->check->columns * c->check->rows;
-    // Meshers may look at a pixel's area: that of the picture's, nearly, also between places.
-    c->finer = c->hits ? FINER : (desc->step * desc->step) | 1;
+    const uint32_t most = MAX_DRAWN_ROWS / c->check->rows;
+    const uint32_t wanted = desc->step * desc->step;
+    c->finer = (wanted < most ? wanted : most) | 1; // odd: one of the rows goes through the places
     c->fine_rows = c->check->rows * c->finer;
     c->drawn = mem_alloc(desc->ctx, count * c->finer, 4 * sizeof *c->drawn);
-    c->edges_y = mem_alloc(desc->ctx, count, sizeof *c->edges_y);
-    c->edges_m = mem_alloc(desc->ctx, count, sizeof *c->edges_m);
-    return c->drawn && c->edges_y && c->edges_m ? TRL_OK : TRL_ERROR_MEMORY;
+    return c->drawn ? TRL_OK : TRL_ERROR_MEMORY;
 }
 
-trl_result mesh_check_init(const struct mesh_check_desc *desc, const struct reference_hit *hits,
+trl_result mesh_check_init(const struct mesh_check_desc *desc, const struct mesh_truth *truth,
                            struct mesh_check *out)
 {
     uint32_t size[2];
@@ -397,7 +338,7 @@ trl_result mesh_check_init(const struct mesh_check_desc *desc, const struct refe
                                .rows = size[1],
                                .pixel = 2 * desc->truth.camera->tan_half_fov_y / desc->height};
     out->places = mem_alloc(desc->ctx, (size_t)size[0] * size[1], 4 * sizeof *out->places);
-    struct checker c = {.desc = desc, .hits = hits, .check = out};
+    struct checker c = {.desc = desc, .truth = truth, .check = out};
     trl_result result = out->places ? checker_init(desc, &c) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
         result = draw(&c);
@@ -405,7 +346,7 @@ trl_result mesh_check_init(const struct mesh_check_desc *desc, const struct refe
     if (result == TRL_OK) {
         check_places(&c);
     }
-    if (result == TRL_OK && hits) {
+    if (result == TRL_OK && truth) {
         count_holes(&c);
         check_edges(&c);
     }

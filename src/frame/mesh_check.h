@@ -5,7 +5,7 @@
 // How far the ground that a mesher draws is from the true one, in pixels of a picture. What is
 // measured, and why so, is told in docs/bench.md under terrain-error.
 
-#include "reference/caster.h"
+#include "frame/mesh_truth.h"
 #include "terrain/mesher.h"
 
 struct mesh_check_desc {
@@ -43,13 +43,12 @@ struct mesh_check {
     struct mesh_error error;
 };
 
-// The truth of the same view for several meshers is cast once and handed on: `hits` holds
-// mesh_check_size() of them, lowest row first.
+// Columns and rows of the places that are looked at: what the truth is found for.
 void mesh_check_size(const struct mesh_check_desc *desc, uint32_t size[2]);
 
-// TRL_ERROR_MEMORY; TRL_ERROR_GPU.
+// `truth` has silhouettes; NULL: shifts only. TRL_ERROR_MEMORY; TRL_ERROR_GPU.
 TRL_MUST_USE trl_result mesh_check_init(const struct mesh_check_desc *desc,
-                                        const struct reference_hit *hits, struct mesh_check *out);
+                                        const struct mesh_truth *truth, struct mesh_check *out);
 void mesh_check_finish(struct mesh_check *check);
 
 // Of two views that follow each other in a flight: by how much ground that both show moved in the

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "reference/caster.h"
 
+#include "reference/rows.h"
+
 #include <math.h>
-#include <omp.h>
 
 static struct reference_way find_way(const struct reference_caster *caster, double x, double y)
 {
-    return (struct reference_way){caster->camera->position_m,
-                                  vec3_normalize(camera_ray(caster->camera, x, y)), INFINITY,
-                                  caster->pixel_rad};
+    return (struct reference_way){.from_m = caster->camera->position_m,
+                                  .direction = vec3_normalize(camera_ray(caster->camera, x, y)),
+                                  .length_m = INFINITY,
+                                  .pixel_rad = caster->pixel_rad};
 }
 
 static double follow(const struct reference_caster *caster, const struct reference_way *way)
@@ -18,9 +20,11 @@ static double follow(const struct reference_caster *caster, const struct referen
     return met >= 0 ? met : HUGE_VAL;
 }
 
-double reference_caster_ray(const struct reference_caster *caster, double x, double y)
+double reference_caster_ray(const struct reference_caster *caster, double x, double y,
+                            double length_m)
 {
-    const struct reference_way way = find_way(caster, x, y);
+    struct reference_way way = find_way(caster, x, y);
+    way.length_m = length_m;
     return follow(caster, &way);
 }
 
@@ -37,29 +41,24 @@ static struct reference_hit cast(const struct reference_caster *caster, double x
     return hit;
 }
 
+struct picture {
+    const struct reference_caster *caster;
+    const uint32_t *size;
+    struct reference_hit *hits;
+};
+
+static void cast_row(void *user, uint32_t row)
+{
+    const struct picture *p = user;
+    for (uint32_t column = 0; column < p->size[0]; column++) {
+        p->hits[(size_t)row * p->size[0] + column] =
+            cast(p->caster, (2 * column + 1.0) / p->size[0] - 1, (2 * row + 1.0) / p->size[1] - 1);
+    }
+}
+
 trl_result reference_caster_picture(const trl_context *ctx, const struct reference_caster *caster,
                                     const uint32_t size[2], struct reference_hit *hits)
 {
-    trl_result result = TRL_OK; // written by the calling thread, and read at the end
-    bool is_stopped = false;
-    uint32_t rows_done = 0;
-#pragma omp parallel for schedule(dynamic)
-    for (uint32_t row = 0; row < size[1]; row++) {
-        bool skips;
-#pragma omp atomic read
-        skips = is_stopped;
-        for (uint32_t column = 0; column < size[0] && !skips; column++) {
-            hits[(size_t)row * size[0] + column] =
-                cast(caster, (2 * column + 1.0) / size[0] - 1, (2 * row + 1.0) / size[1] - 1);
-        }
-        uint32_t done;
-#pragma omp atomic capture
-        done = ++rows_done;
-        if (omp_get_thread_num() == 0 && !skips) {
-            result = trl_progress(ctx, "casting rays", (double)done / size[1]);
-#pragma omp atomic write
-            is_stopped = result != TRL_OK;
-        }
-    }
-    return result;
+    struct picture picture = {caster, size, hits};
+    return reference_rows(ctx, "casting rays", size[1], cast_row, &picture);
 }

@@ -25,8 +25,10 @@ struct reference_hit {
     struct vec3 normal;
 };
 
-// Through the point (x, y) in [-1, 1]^2 of the picture, y up; the normal is left out.
-double reference_caster_ray(const struct reference_caster *caster, double x, double y);
+// Distance of what a ray meets through the point (x, y) in [-1, 1]^2 of the picture, y up;
+// INFINITY: nothing within `length_m`.
+double reference_caster_ray(const struct reference_caster *caster, double x, double y,
+                            double length_m);
 
 // Through the middles of columns x rows pixels, the lowest row first; on all cores.
 // TRL_ERROR_CANCELLED.

@@ -64,13 +64,13 @@ struct mesh_error planet_check(const struct planet *planet, const struct camera 
         .step = step};
     uint32_t size[2];
     mesh_check_size(&desc, size);
-    struct reference_hit *hits = mem_alloc(desc.ctx, (size_t)size[0] * size[1], sizeof *hits);
-    assert_non_null(hits);
-    assert_int_equal(reference_caster_picture(desc.ctx, &desc.truth, size, hits), TRL_OK);
+    struct mesh_truth truth;
+    assert_int_equal(mesh_truth_init(desc.ctx, &desc.truth, size, &truth), TRL_OK);
+    assert_int_equal(mesh_truth_find_edges(&truth, &desc.truth), TRL_OK);
     struct mesh_check check;
-    assert_int_equal(mesh_check_init(&desc, hits, &check), TRL_OK);
+    assert_int_equal(mesh_check_init(&desc, &truth, &check), TRL_OK);
     const struct mesh_error error = check.error;
     mesh_check_finish(&check);
-    mem_free(desc.ctx, hits);
+    mesh_truth_finish(&truth);
     return error;
 }
