@@ -32,6 +32,13 @@ float cloud_altitude(vec3 place)
     return rise / (sqrt(max(ground * ground + rise, 0.0)) + ground);
 }
 
+// In [0, 1] within a layer.
+float cloud_height(int layer, vec3 place)
+{
+    vec4 shell = u_cloud_shell[layer];
+    return (cloud_altitude(place) - shell.x) / (shell.y - shell.x);
+}
+
 // The part of the sky that a layer may cover at a place. `width` is that of a pixel there, m.
 float cloud_cover(int layer, vec3 place, float width)
 {
@@ -72,7 +79,6 @@ float cloud_gathered(int layer, vec3 place, float cover, float level)
 
 struct CloudPoint {
     float extinction; // per m
-    float height;     // in the layer
     bool may_be_near; // cloud, within the border
 };
 
@@ -88,8 +94,7 @@ CloudPoint cloud_point(int layer, vec3 place, float cover, float level)
     vec4 shell = u_cloud_shell[layer];
     vec4 grain = u_cloud_grain[layer];
     CloudPoint point;
-    point.height = (cloud_altitude(place) - shell.x) / (shell.y - shell.x);
-    float signal = cloud_height_signal(point.height, shell.z);
+    float signal = cloud_height_signal(cloud_height(layer, place), shell.z);
     float detail_level = level + log2(CLOUD_DETAIL_TILES);
     vec2 noise = textureLod(u_cloud_noise, u_cloud_anchor[layer].xyz + place * grain.x, level).xy;
     float finer =
@@ -114,11 +119,11 @@ vec2 cloud_coarse(int layer, vec3 place, float cover, float level)
 {
     vec4 shell = u_cloud_shell[layer];
     vec4 grain = u_cloud_grain[layer];
-    float height = (cloud_altitude(place) - shell.x) / (shell.y - shell.x);
     float noise = textureLod(u_cloud_noise, u_cloud_anchor[layer].xyz + place * grain.x, level).x;
     float spread =
         cloud_joint_spread(cloud_spread(level), grain.z * cloud_spread(u_cloud_volume.y), noise);
-    float x = noise - cloud_threshold(cover, cloud_height_signal(height, shell.z));
+    float x =
+        noise - cloud_threshold(cover, cloud_height_signal(cloud_height(layer, place), shell.z));
     float density = cloud_density(x, spread);
     float part = cloud_part(x, spread);
     return vec2(cloud_extinction(density, part, grain.y, cloud_way(layer, level)),

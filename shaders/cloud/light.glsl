@@ -24,7 +24,6 @@ const float DIFFUSE = 3.5;
 // Of what lights clouds around a place, in the bands.
 struct Lights {
     vec4 sun, above, below;
-    float sun_mu;
 };
 
 Lights lights_at(vec3 place)
@@ -35,10 +34,10 @@ Lights lights_at(vec3 place)
         clamp((altitude_m - u_ground_light.x) / (u_ground_light.y - u_ground_light.x), 0.0, 1.0),
         u_ground_light.w);
     Lights lights;
-    lights.sun_mu = dot(up, u_sun);
+    float sun_mu = dot(up, u_sun);
     float lowest = sky_map_lowest_sun(u_planet.x, altitude_m, u_disc.x, u_disc.y);
-    float sun = sky_map_sunlight(lights.sun_mu, lowest, u_ground_light.z);
-    vec2 day = vec2(centre(sun_coordinate(lights.sun_mu), u_light_texel.y), altitude);
+    float sun = sky_map_sunlight(sun_mu, lowest, u_ground_light.z);
+    vec2 day = vec2(centre(sun_coordinate(sun_mu), u_light_texel.y), altitude);
     lights.sun = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
     lights.above = exp(textureLod(u_skylight, day, 0.0)) * (1.0 / SHARED_PI);
     lights.below = exp(textureLod(u_rising, day, 0.0)) * (1.0 / SHARED_PI);
@@ -58,10 +57,10 @@ struct Shares {
     float sun, above, below;
 };
 
-Shares shares_at(int layer, vec3 place, float cover, Lights lights, CloudPoint point, vec3 phases,
-                 float width)
+Shares shares_at(int layer, vec3 place, float cover, float sun_mu, vec3 phases, float width)
 {
-    float depth = cloud_sun_depth(layer, place, cover, lights.sun_mu, point.height, width);
+    float height = cloud_height(layer, place);
+    float depth = cloud_sun_depth(layer, place, cover, sun_mu, height, width);
     // How thick the cloud around is, from a look at a box of half the layer's height.
     float thick_m = u_cloud_shell[layer].y - u_cloud_shell[layer].x;
     float around =
@@ -72,10 +71,10 @@ Shares shares_at(int layer, vec3 place, float cover, Lights lights, CloudPoint p
     float octave2 = OCTAVE_DEPTH * OCTAVE_DEPTH;
     shares.sun = phases.x * exp(-depth) + OCTAVE_LIGHT * phases.y * exp(-OCTAVE_DEPTH * depth) +
                  OCTAVE_LIGHT * OCTAVE_LIGHT * phases.z * exp(-octave2 * depth) +
-                 DIFFUSE / (4.0 * SHARED_PI) * (0.5 + 0.5 * lights.sun_mu) * returned /
+                 DIFFUSE / (4.0 * SHARED_PI) * (0.5 + 0.5 * sun_mu) * returned /
                      (1.0 + CLOUD_DIFFUSE_DEPTH * depth);
     // Radiance between two lit sides runs linearly with the depth.
-    float high = clamp(point.height, 0.0, 1.0);
+    float high = clamp(height, 0.0, 1.0);
     shares.above = (1.0 + thick * high) / (2.0 + thick);
     shares.below = 1.0 - shares.above;
     return shares;

@@ -6,12 +6,13 @@
 //     radiance = rgb + (1 - a) * radiance      linear sRGB, cd m^-2; a = 1 - transmittance
 //
 // The picture already has the air's light A as if there were no clouds. With A(s) that of the air
-// up to s and the clouds' transmittance T(s), what is seen is
+// up to s and the clouds' transmittance T(s), Eq. 20 is clouds + integral of T dA, as its
+// in-scattered light of a slice, dimmed by the air before it, is the difference of what the maps
+// have of both its ends. By parts that is
 //
-//     clouds + sum of (A(s_n) - A(s_n-1)) T_n + T (picture - A(s_end))
+//     sum of (T_n-1 - T_n) (cloud's light there, dimmed by the air + A(s_n)) + T picture
 //
-// which is Eq. 20, as its in-scattered light of a slice, dimmed by the air before it, is just the
-// difference of what the maps have of both its ends.
+// so air is looked up only where cloud is.
 // validate: PEAKED_COUNT 1
 // validate: PEAKED_COUNT 0
 // validate: PEAKED_COUNT 1; SURFACE; MARCH
@@ -28,10 +29,14 @@ uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, o
 
 layout(location = 0) out vec4 out_clouds;
 
-const int SLICES = 8; // of the air in each part of the ray
+const int SLICES = 8; // at most, of a layer along a part of the ray
 const int STEPS = 24; // at most, in a slice
 const int LEAST_STEPS = 4;
-const float OPAQUE = 0.01;
+const int COVER_STEPS = 6;        // between looks at the fields of clouds
+const float OPAQUE = 0.02;        // what is behind counts as what is before
+const float STEP_DEPTH = 0.5;     // of cloud that is lit as one place
+const float LEAST_DEPTH = 1.0e-4; // of what counts as cloud
+const float LEAST_COVER = 1.0e-4;
 
 struct Part {
     float from, to; // m
@@ -109,10 +114,9 @@ void main()
     vec3 phases = phases_at(ray.nu);
     float begin = spread_begin();
     float pixel_rad = u_disc.z;
-    float left = 1.0;        // transmittance of the clouds so far
-    vec4 bands = vec4(0.0);  // of the clouds
-    vec3 air = vec3(0.0);    // XYZ of the air, dimmed
-    vec3 before = vec3(0.0); // of the air up to here, as without clouds
+    float left = 1.0;       // transmittance of the clouds so far
+    vec4 bands = vec4(0.0); // of the clouds
+    vec3 air = vec3(0.0);   // XYZ of the air before them
     float here = 0.0;
     for (int n = 0; n < 2 * u_cloud_layers; n++) {
         // The nearest part that begins here or beyond.
@@ -129,80 +133,101 @@ void main()
         if (part.from > 0.9e30 || left < OPAQUE) {
             break;
         }
-        vec3 light = air_before(ray, part.from).scattered;
-#ifdef MARCH
-        light *= share_before(uv, part.from);
-#endif
-        air += (light - before) * left;
-        before = light;
+        float texel = cloud_texel(part.layer);
+        // Steps grow with the distance; so many slices as there are enough steps for.
+        float roots = pow(part.from, 1.0 / 3.0);
+        float root_length = pow(part.to, 1.0 / 3.0) - roots;
+        float finest = max(0.4 * texel, part.from * pixel_rad);
+        float slices =
+            clamp((part.to - part.from) / (float(2 * LEAST_STEPS) * finest), 1.0, float(SLICES));
         float near = part.from;
-        float length_m = part.to - part.from;
-        vec4 shown = air_before(ray, near).transmittance;
         for (int slice = 1; slice <= SLICES; slice++) {
-            float x = float(slice) / float(SLICES);
-            float far = part.from + length_m * x * x * x;
+            if (near >= part.to || left < OPAQUE) {
+                break;
+            }
+            float root = roots + root_length * min(float(slice) / slices, 1.0);
+            float far = float(slice) >= slices ? part.to : root * root * root;
             vec3 middle = ray.direction * (0.5 * (near + far));
             float width = 0.5 * (near + far) * pixel_rad;
             float weather = cloud_cover(part.layer, middle, width);
-            Lights lights = lights_at(middle);
-            float texel = cloud_texel(part.layer);
+            float sun_mu = dot(normalize(u_eye_up * u_eye.x + middle), u_sun);
             float usual = max(max(0.4 * texel, (far - near) / float(STEPS)),
                               min(width, (far - near) / float(LEAST_STEPS)));
             float level = cloud_level(part.layer, max(width, 0.5 * usual));
             // Where steps are longer than what is in them varies, they would only make noise.
             float offset = 0.5 + (begin - 0.5) * min(4.0 * texel / usual, 1.0);
-            float s = near;
+            float s = weather > LEAST_COVER ? near : far;
             float left_before = left;
+            float moment = 0.0; // of s
             Shares sum = Shares(0.0, 0.0, 0.0);
             for (int i = 0; i < STEPS; i++) {
-                // Up to the next step with cloud. Where nothing is skipped by a branch, a loop of
-                // its own keeps light from being looked for in empty air.
-                float step_m = 0.0;
+                // Through air and cloud until there is enough to be lit. Where nothing is skipped
+                // by a branch, a loop of its own keeps light from being looked for in empty air.
                 float depth = 0.0;
+                float depth_s = 0.0;
                 float cover = 0.0;
-                vec3 place = middle;
-                CloudPoint point = CloudPoint(0.0, 0.0, false);
-                for (int k = 0; k < STEPS; k++) {
-                    step_m = left < OPAQUE ? 0.0 : min(usual, far - s);
-                    if (step_m <= 0.0) {
+                float height = 0.0;
+                for (int m = 0; m < STEPS; m++) {
+                    if (s >= far || left < OPAQUE || depth > LEAST_DEPTH) {
                         break;
                     }
-                    place = ray.direction * (s + offset * step_m);
-                    cover = cloud_gathered(part.layer, place, weather, level);
-                    point = cloud_point(part.layer, place, cover, level);
-                    depth = point.extinction * step_m;
-                    if (depth > 1.0e-4) {
-                        break;
+                    float from = s;
+                    float span = min(float(COVER_STEPS) * usual, far - s);
+                    float first = cloud_gathered(part.layer, ray.direction * from, weather, level);
+                    float last =
+                        cloud_gathered(part.layer, ray.direction * (from + span), weather, level);
+                    for (int k = 0; k < COVER_STEPS; k++) {
+                        float step_m = depth > STEP_DEPTH ? 0.0 : min(usual, from + span - s);
+                        if (step_m <= 0.0) {
+                            break;
+                        }
+                        float at = s + offset * step_m;
+                        cover = mix(first, last, (at - from) / span);
+                        CloudPoint point =
+                            cloud_point(part.layer, ray.direction * at, cover, level);
+                        float own = point.extinction * step_m;
+                        depth += own;
+                        depth_s += own * at;
+                        s += point.may_be_near ? step_m : max(step_m, u_cloud_volume.z * texel);
                     }
-                    s += point.may_be_near ? step_m : max(step_m, u_cloud_volume.z * texel);
                 }
-                if (step_m <= 0.0) {
+                if (depth <= LEAST_DEPTH) {
                     break;
                 }
-                Shares shares = shares_at(part.layer, place, cover, lights, point, phases, width);
-                float dimmed = exp(-depth);
-                float weight = left * (1.0 - dimmed);
+                float at = depth_s / depth;
+                Shares shares =
+                    shares_at(part.layer, ray.direction * at, cover, sun_mu, phases, width);
+                float weight = left * (1.0 - exp(-depth));
                 sum.sun += shares.sun * weight;
                 sum.above += shares.above * weight;
                 sum.below += shares.below * weight;
-                left *= dimmed;
-                s += step_m;
+                moment += at * weight;
+                left -= weight;
             }
-            Air ahead = air_before(ray, far);
-            light = ahead.scattered;
+            float taken = left_before - left;
+            for (int once = 0; once < 1; once++) {
+                if (taken <= 0.0) {
+                    break;
+                }
+                float at = moment / taken;
+                Lights lights = lights_at(ray.direction * at);
+                Air before = air_before(ray, at);
+                vec3 light = before.scattered;
 #ifdef MARCH
-            light *= share_before(uv, far);
+                light *= share_before(uv, at);
 #endif
-            air += (light - before) * (0.5 * (left_before + left));
-            before = light;
-            bands += (lights.sun * sum.sun + lights.above * sum.above + lights.below * sum.below) *
-                     (0.5 * (shown + ahead.transmittance));
-            shown = ahead.transmittance;
+                air += light * taken;
+                bands +=
+                    (lights.sun * sum.sun + lights.above * sum.above + lights.below * sum.below) *
+                    before.transmittance;
+            }
             near = far;
         }
         here = part.to;
     }
+    // What is left of a cloud that is all but opaque is like the rest.
+    float scale = left < OPAQUE ? 1.0 / (1.0 - left) : 1.0;
     left = left < OPAQUE ? 0.0 : left;
-    vec4 joined = join_radiance(bands, air - before * left);
+    vec4 joined = join_radiance(bands * scale, air * scale);
     out_clouds = vec4(joined.rgb, 1.0 - left);
 }

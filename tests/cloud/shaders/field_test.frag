@@ -12,5 +12,5 @@ void main()
     float cover = cloud_cover(0, u_place.xyz, 1.0);
     cover = cloud_gathered(0, u_place.xyz, cover, u_place.w);
     CloudPoint point = cloud_point(0, u_place.xyz, cover, u_place.w);
-    out_point = vec4(point.extinction, point.height, point.may_be_near ? 1.0 : 0.0, cover);
+    out_point = vec4(point.extinction, cloud_height(0, u_place.xyz), point.may_be_near ? 1.0 : 0.0, cover);
 }
