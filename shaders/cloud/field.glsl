@@ -77,11 +77,6 @@ float cloud_gathered(int layer, vec3 place, float cover, float level)
     return cloud_gathered_cover(cover, noise);
 }
 
-struct CloudPoint {
-    float extinction; // per m
-    bool may_be_near; // cloud, within the border
-};
-
 // Through clouds and gaps of a box.
 float cloud_way(int layer, float level)
 {
@@ -89,28 +84,39 @@ float cloud_way(int layer, float level)
                        1.0 / u_cloud_grain[layer].x, cloud_texel(layer) * exp2(level));
 }
 
-CloudPoint cloud_point(int layer, vec3 place, float cover, float level)
+// Whether there may be cloud in the border around a place, or along a ray from it that is as long
+// and rises by `rise` heights of the layer. By one look.
+bool cloud_may_be_near(int layer, vec3 place, float cover, float level, float rise)
 {
     vec4 shell = u_cloud_shell[layer];
     vec4 grain = u_cloud_grain[layer];
-    CloudPoint point;
+    // The height that has most of the cover.
+    float height = cloud_height(layer, place);
+    float best = clamp(shell.z, min(height, height + rise), max(height, height + rise));
+    float around = textureLod(u_cloud_noise, u_cloud_anchor[layer].xyz + place * grain.x, level).y;
+    float most = cloud_joint_noise(around, 1.0, grain.z) + cloud_spread(level);
+    return most > cloud_threshold(cover, cloud_height_signal(best, shell.z));
+}
+
+// Extinction, per m.
+float cloud_point(int layer, vec3 place, float cover, float level)
+{
+    vec4 shell = u_cloud_shell[layer];
+    vec4 grain = u_cloud_grain[layer];
     float signal = cloud_height_signal(cloud_height(layer, place), shell.z);
     float detail_level = level + log2(CLOUD_DETAIL_TILES);
-    vec2 noise = textureLod(u_cloud_noise, u_cloud_anchor[layer].xyz + place * grain.x, level).xy;
+    float noise = textureLod(u_cloud_noise, u_cloud_anchor[layer].xyz + place * grain.x, level).x;
     float finer =
         textureLod(u_cloud_noise,
                    u_cloud_detail_anchor[layer].xyz + place * (grain.x * CLOUD_DETAIL_TILES),
                    detail_level)
             .x;
-    float joint = cloud_joint_noise(noise.x, finer, grain.z);
+    float joint = cloud_joint_noise(noise, finer, grain.z);
     float spread =
         cloud_joint_spread(cloud_spread(level), grain.z * cloud_spread(detail_level), joint);
     float x = joint - cloud_threshold(cover, signal);
     float density = cloud_density(x, spread);
-    point.extinction =
-        cloud_extinction(density, cloud_part(x, spread), grain.y, cloud_way(layer, level));
-    point.may_be_near = noise.y + 0.5 * grain.z + spread > cloud_threshold(cover, 1.0);
-    return point;
+    return cloud_extinction(density, cloud_part(x, spread), grain.y, cloud_way(layer, level));
 }
 
 // The same by one look, for boxes so wide that the finer noise is the same in each. x: mean
@@ -148,7 +154,7 @@ float cloud_sun_depth(int layer, vec3 place, float cover, float sun_mu, float he
         float to = reach * part * part;
         vec3 there = place + u_sun * (0.5 * (from + to));
         float level = cloud_level(layer, max(0.5 * (to - from), width));
-        sum += cloud_point(layer, there, cover, level).extinction * (to - from);
+        sum += cloud_point(layer, there, cover, level) * (to - from);
         from = to;
     }
     for (int i = CLOUD_SUN_FINE_PLACES + 1; i <= CLOUD_SUN_PLACES; i++) {

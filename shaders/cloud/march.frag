@@ -30,11 +30,13 @@ uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, o
 layout(location = 0) out vec4 out_clouds;
 
 const int SLICES = 8; // at most, of a layer along a part of the ray
-const int STEPS = 24; // at most, in a slice
+const int STEPS = 12; // at most, in a slice
 const int LEAST_STEPS = 4;
 const int COVER_STEPS = 6;        // between looks at the fields of clouds
-const float OPAQUE = 0.02;        // what is behind counts as what is before
-const float STEP_DEPTH = 0.5;     // of cloud that is lit as one place
+const float OPAQUE = 0.04;        // what is behind counts as what is before
+const float STEP_DEPTH = 0.5;     // of cloud that is lit as one place, where nothing is before it
+const float LONG_DEPTH = 0.3;     // at most, of a long step
+const float SHORT = 0.3;          // of a long step
 const float LEAST_DEPTH = 1.0e-4; // of what counts as cloud
 const float LEAST_COVER = 1.0e-4;
 
@@ -81,12 +83,11 @@ Part part_of(Ray ray, int index, float end)
     return part;
 }
 
-// Spreads the steps' beginnings, so that what is left of them is noise and not lines: a sequence of
-// low discrepancy over the picture (Jimenez 2014).
+// Spreads the steps' beginnings over each four pixels, which join.frag takes the mean of.
 float spread_begin()
 {
-    return 0.25 +
-           0.5 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    ivec2 at = ivec2(gl_FragCoord.xy) & 1;
+    return 0.125 + 0.25 * float(at.x == at.y ? 2 * at.x : 3 - 2 * at.x);
 }
 
 void main()
@@ -137,7 +138,7 @@ void main()
         // Steps grow with the distance; so many slices as there are enough steps for.
         float roots = pow(part.from, 1.0 / 3.0);
         float root_length = pow(part.to, 1.0 / 3.0) - roots;
-        float finest = max(0.4 * texel, part.from * pixel_rad);
+        float finest = max(texel, 4.0 * part.from * pixel_rad);
         float slices =
             clamp((part.to - part.from) / (float(2 * LEAST_STEPS) * finest), 1.0, float(SLICES));
         float near = part.from;
@@ -150,45 +151,66 @@ void main()
             vec3 middle = ray.direction * (0.5 * (near + far));
             float width = 0.5 * (near + far) * pixel_rad;
             float weather = cloud_cover(part.layer, middle, width);
-            float sun_mu = dot(normalize(u_eye_up * u_eye.x + middle), u_sun);
-            float usual = max(max(0.4 * texel, (far - near) / float(STEPS)),
-                              min(width, (far - near) / float(LEAST_STEPS)));
+            vec3 up = normalize(u_eye_up * u_eye.x + middle);
+            float sun_mu = dot(up, u_sun);
+            float usual = max(max(texel, (far - near) / float(STEPS)),
+                              min(4.0 * width, (far - near) / float(LEAST_STEPS)));
             float level = cloud_level(part.layer, max(width, 0.5 * usual));
+            // At least a step, so that where nothing can be skipped no more is looked at.
+            float border = max(u_cloud_volume.z * texel, usual);
+            float rise = border * dot(up, ray.direction) /
+                         (u_cloud_shell[part.layer].y - u_cloud_shell[part.layer].x);
             // Where steps are longer than what is in them varies, they would only make noise.
             float offset = 0.5 + (begin - 0.5) * min(4.0 * texel / usual, 1.0);
             float s = weather > LEAST_COVER ? near : far;
+            float stride = usual;
+            bool is_inside = false;
             float left_before = left;
             float moment = 0.0; // of s
             Shares sum = Shares(0.0, 0.0, 0.0);
-            for (int i = 0; i < STEPS; i++) {
+            for (int i = 0; i < 2 * STEPS; i++) {
                 // Through air and cloud until there is enough to be lit. Where nothing is skipped
                 // by a branch, a loop of its own keeps light from being looked for in empty air.
+                float enough = STEP_DEPTH / left;
+                float shorter = min(SHORT / left, 1.0);
                 float depth = 0.0;
                 float depth_s = 0.0;
                 float cover = 0.0;
-                float height = 0.0;
-                for (int m = 0; m < STEPS; m++) {
+                for (int m = 0; m < 2 * STEPS; m++) {
                     if (s >= far || left < OPAQUE || depth > LEAST_DEPTH) {
                         break;
                     }
                     float from = s;
-                    float span = min(float(COVER_STEPS) * usual, far - s);
+                    float span = min(max(float(COVER_STEPS) * usual, 4.0 * border), far - s);
                     float first = cloud_gathered(part.layer, ray.direction * from, weather, level);
                     float last =
                         cloud_gathered(part.layer, ray.direction * (from + span), weather, level);
-                    for (int k = 0; k < COVER_STEPS; k++) {
-                        float step_m = depth > STEP_DEPTH ? 0.0 : min(usual, from + span - s);
+                    float most = max(first, last);
+                    for (int k = 0; k < 3 * COVER_STEPS; k++) {
+                        if (s >= from + span ||
+                            cloud_may_be_near(part.layer, ray.direction * s, most, level, rise)) {
+                            break;
+                        }
+                        s += border;
+                    }
+                    for (int k = 0; k < 3 * COVER_STEPS; k++) {
+                        float step_m = depth > enough ? 0.0 : min(stride, from + span - s);
                         if (step_m <= 0.0) {
                             break;
                         }
                         float at = s + offset * step_m;
                         cover = mix(first, last, (at - from) / span);
-                        CloudPoint point =
-                            cloud_point(part.layer, ray.direction * at, cover, level);
-                        float own = point.extinction * step_m;
+                        float own =
+                            cloud_point(part.layer, ray.direction * at, cover, level) * step_m;
+                        // A long step that meets cloud is made again in short ones.
+                        bool is_again = !is_inside && own > LONG_DEPTH;
+                        own = is_again ? 0.0 : own;
+                        step_m = is_again ? 0.0 : step_m;
+                        is_inside = is_again || own > LEAST_DEPTH;
+                        stride = is_inside ? usual * shorter : usual;
                         depth += own;
                         depth_s += own * at;
-                        s += point.may_be_near ? step_m : max(step_m, u_cloud_volume.z * texel);
+                        s += step_m;
                     }
                 }
                 if (depth <= LEAST_DEPTH) {

@@ -1,26 +1,29 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// What clouds leave of the star's light on the ground of a pixel: 1 where there is none. Of what
+// What clouds leave of the star's light on the ground of every second pixel each way: 1 where there
+// is none. y: logarithm of its distance, for who looks between pixels. Of what
 // they take, droplets send most on downward; it counts here too, as if it still came from the star.
 // validate: SURFACE
 
 #include "cloud/field.glsl"
 
-in vec2 v_uv;
+uniform vec2 u_picture; // pixels
 
 #ifdef SURFACE
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
 #endif
 
-layout(location = 0) out vec4 out_left;
+layout(location = 0) out vec2 out_left;
 
 const int PLACES = 10;
+const float SKY_M = 1.0e9;
 
 void main()
 {
-    Ray ray = make_pixel_ray(v_uv);
+    vec2 pixel = min(2.0 * floor(gl_FragCoord.xy), u_picture - 1.0) + 0.5;
+    Ray ray = make_pixel_ray(pixel / u_picture);
 #ifdef SURFACE
-    vec4 position = texelFetch(u_position, ivec2(gl_FragCoord.xy), 0);
+    vec4 position = texelFetch(u_position, ivec2(pixel), 0);
     bool is_ground = position.w > -1.0e8;
     vec3 place = position.xyz;
 #else
@@ -32,18 +35,19 @@ void main()
     float altitude = cloud_altitude(place);
     float width = length(place) * u_disc.z;
     float depth = 0.0;
-    for (int layer = 0; layer < u_cloud_layers; layer++) {
+    for (int layer = 0; layer < (is_ground ? u_cloud_layers : 0); layer++) {
         float base = max(u_cloud_shell[layer].x - altitude, 0.0) / sun_mu;
         float top = max(u_cloud_shell[layer].y - altitude, 0.0) / sun_mu;
         float step_m = (top - base) / float(PLACES);
         float level = cloud_level(layer, max(width, 0.5 * step_m));
         vec3 middle = place + u_sun * (0.5 * (base + top));
         float cover = cloud_gathered(layer, middle, cloud_cover(layer, middle, width), level);
-        for (int i = 0; i < PLACES; i++) {
+        for (int i = 0; i < (cover > 1.0e-4 ? PLACES : 0); i++) {
             vec3 there = place + u_sun * (base + (float(i) + 0.5) * step_m);
             depth += cloud_coarse(layer, there, cover, level).x * step_m;
         }
     }
     // Two streams without absorption: 1 / (1 + 3/4 (1 - g) t) goes through in all.
-    out_left = vec4(is_ground ? 1.0 / (1.0 + CLOUD_DIFFUSE_DEPTH * depth) : 1.0);
+    float distance_m = is_ground ? max(length(place), 1.0e-3) : SKY_M;
+    out_left = vec2(1.0 / (1.0 + CLOUD_DIFFUSE_DEPTH * depth), log(distance_m));
 }

@@ -21,12 +21,29 @@ uniform sampler2D u_region; // the same: albedo around; a: sky view factor
 #ifdef CLOUDS
 uniform sampler2D u_cloud_shade; // what clouds leave of the star, see cloud/march.h
 
-float cloud_shade()
+// Of every second pixel: of the four around those that are about as far away.
+float cloud_shade(float distance_m)
 {
-    return texelFetch(u_cloud_shade, ivec2(gl_FragCoord.xy), 0).x;
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 last = textureSize(u_cloud_shade, 0) - 1;
+    ivec2 first = pixel / 2;
+    vec2 part = vec2(pixel - 2 * first) * 0.5;
+    float own = log(max(distance_m, 1.0e-3));
+    float sum = 0.0;
+    float weights = 0.0;
+    for (int n = 0; n < 4; n++) {
+        ivec2 offset = ivec2(n & 1, n >> 1);
+        vec2 shade = texelFetch(u_cloud_shade, min(first + offset, last), 0).xy;
+        vec2 near = mix(1.0 - part, part, vec2(offset));
+        float apart = abs(shade.y - own);
+        float weight = (near.x * near.y + 1.0e-4) / (1.0 + 4.0e3 * apart * apart * apart);
+        sum += shade.x * weight;
+        weights += weight;
+    }
+    return sum / weights;
 }
 #else
-float cloud_shade()
+float cloud_shade(float distance_m)
 {
     return 1.0;
 }
@@ -62,7 +79,7 @@ Ground find_ground(out Ray ray)
     ground.distance_m = distance_m;
     ground.altitude_m = position.w;
     ground.normal = normal.xyz;
-    ground.star_visible = normal.w * cloud_shade();
+    ground.star_visible = normal.w * cloud_shade(distance_m);
     ground.albedo = albedo.rgb * albedo.rgb;
     vec4 region = texelFetch(u_region, ivec2(gl_FragCoord.xy), 0);
     ground.region = region.rgb * region.rgb;
@@ -83,7 +100,7 @@ Ground find_ground(out Ray ray)
     ground.distance_m = ray.ground_m;
     ground.altitude_m = 0.0;
     ground.normal = normalize(u_eye_up * u_eye.x + ray.direction * ray.ground_m);
-    ground.star_visible = cloud_shade();
+    ground.star_visible = cloud_shade(ray.ground_m);
     return ground;
 }
 #endif

@@ -69,6 +69,7 @@ trl_result cloud_march_init(struct gpu *gpu, const struct cloud_field *field,
 static void finish_programs(struct cloud_march *m)
 {
     gpu_program_finish(&m->march);
+    gpu_program_finish(&m->filter);
     gpu_program_finish(&m->join);
     gpu_program_finish(&m->shade);
     m->is_made = false;
@@ -77,9 +78,12 @@ static void finish_programs(struct cloud_march *m)
 static void finish_targets(struct cloud_march *m)
 {
     gpu_target_finish(&m->clouds_target);
+    gpu_target_finish(&m->joined_target);
     gpu_target_finish(&m->shades_target);
     gpu_texture_finish(&m->clouds);
+    gpu_texture_finish(&m->joined);
     gpu_texture_finish(&m->shades);
+    m->width = m->height = 0;
 }
 
 void cloud_march_finish(struct cloud_march *march)
@@ -113,6 +117,7 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", view->air->peaked_count);
     const char *const surface[] = {is_bare ? NULL : "SURFACE", NULL};
+    const char *const filter[] = {"FILTER", is_bare ? NULL : "SURFACE", NULL};
     const char *march[4] = {peaked};
     size_t count = 1;
     if (!is_bare) {
@@ -122,6 +127,9 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
         march[count++] = "MARCH";
     }
     trl_result result = make_program(m->gpu, "cloud/march.frag", march, &m->march);
+    if (result == TRL_OK) {
+        result = make_program(m->gpu, "cloud/join.frag", filter, &m->filter);
+    }
     if (result == TRL_OK) {
         result = make_program(m->gpu, "cloud/join.frag", surface, &m->join);
     }
@@ -147,27 +155,32 @@ static trl_result make_target(struct cloud_march *m, struct gpu_texture_desc *de
 
 static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *picture)
 {
-    if (m->shades.width == picture->width && m->shades.height == picture->height) {
+    if (m->width == picture->width && m->height == picture->height) {
         return TRL_OK;
     }
     finish_targets(m);
     struct gpu_texture_desc desc = gpu_texture_desc_default();
     desc.label = "shade of clouds";
-    desc.format = GPU_FORMAT_R32F;
-    desc.width = picture->width;
-    desc.height = picture->height;
+    desc.format = GPU_FORMAT_RG32F;
+    desc.width = (picture->width + 1) / 2;
+    desc.height = (picture->height + 1) / 2;
     trl_result result = make_target(m, &desc, &m->shades, &m->shades_target);
+    desc.format = GPU_FORMAT_RGBA32F;
     if (result == TRL_OK) {
         desc.label = "clouds";
-        desc.format = GPU_FORMAT_RGBA32F;
-        desc.width = (picture->width + 1) / 2;
-        desc.height = (picture->height + 1) / 2;
         result = make_target(m, &desc, &m->clouds, &m->clouds_target);
+    }
+    if (result == TRL_OK) {
+        desc.label = "clouds joined";
+        result = make_target(m, &desc, &m->joined, &m->joined_target);
     }
     if (result != TRL_OK) {
         finish_targets(m);
+        return result;
     }
-    return result;
+    m->width = picture->width;
+    m->height = picture->height;
+    return TRL_OK;
 }
 
 // A place in tiles of a size, without the whole ones, so that floats are enough.
@@ -220,8 +233,10 @@ void cloud_march_set_field(const struct cloud_march *m, const struct camera *cam
     gpu_program_set_texture(program, "u_cloud_map", &m->map);
 }
 
-static void set_position(const struct cloud_view *view, struct gpu_program *program)
+static void set_view(const struct cloud_view *view, struct gpu_program *program)
 {
+    const float picture[2] = {(float)view->target->width, (float)view->target->height};
+    gpu_program_set_vec2(program, "u_picture", picture);
     if (view->position) {
         gpu_program_set_texture(program, "u_position", view->position);
     }
@@ -242,9 +257,27 @@ trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view 
     const struct gpu_pass pass = {.target = &march->shades_target};
     view->air->bind(view->air->self, false, &march->shade);
     cloud_march_set_field(march, view->camera, &march->shade);
-    set_position(view, &march->shade);
+    set_view(view, &march->shade);
     gpu_pass_begin(march->gpu, &pass);
     return gpu_draw_fullscreen(&march->shade, "clouds");
+}
+
+static trl_result join(struct cloud_march *march, const struct cloud_view *view)
+{
+    const struct gpu_pass filter = {.target = &march->joined_target};
+    set_view(view, &march->filter);
+    gpu_program_set_texture(&march->filter, "u_clouds", &march->clouds);
+    gpu_pass_begin(march->gpu, &filter);
+    const trl_result result = gpu_draw_fullscreen(&march->filter, "clouds");
+    if (result != TRL_OK) {
+        return result;
+    }
+    const struct gpu_pass join = {.target = view->target,
+                                  .state = {.blend = GPU_BLEND_PREMULTIPLIED}};
+    set_view(view, &march->join);
+    gpu_program_set_texture(&march->join, "u_clouds", &march->joined);
+    gpu_pass_begin(march->gpu, &join);
+    return gpu_draw_fullscreen(&march->join, "clouds");
 }
 
 trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *view)
@@ -253,21 +286,11 @@ trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *
     if (result != TRL_OK) {
         return result;
     }
-    const float picture[2] = {(float)view->target->width, (float)view->target->height};
     const struct gpu_pass clouds = {.target = &march->clouds_target};
     view->air->bind(view->air->self, true, &march->march);
     cloud_march_set_field(march, view->camera, &march->march);
-    set_position(view, &march->march);
-    gpu_program_set_vec2(&march->march, "u_picture", picture);
+    set_view(view, &march->march);
     gpu_pass_begin(march->gpu, &clouds);
     result = gpu_draw_fullscreen(&march->march, "clouds");
-    if (result == TRL_OK) {
-        const struct gpu_pass join = {.target = view->target,
-                                      .state = {.blend = GPU_BLEND_PREMULTIPLIED}};
-        set_position(view, &march->join);
-        gpu_program_set_texture(&march->join, "u_clouds", &march->clouds);
-        gpu_pass_begin(march->gpu, &join);
-        result = gpu_draw_fullscreen(&march->join, "clouds");
-    }
-    return result;
+    return result == TRL_OK ? join(march, view) : result;
 }

@@ -7,8 +7,10 @@
 //
 //     in   position   RGBA32F  of the ground (frame/ground.h), or none for a bare sphere
 //          radiance   RGBA32F  as the sky and what is beyond the air left it
-//     out  shade      R32F     what clouds leave of the star's light on the ground of a pixel
+//     out  shade      RG32F    of every second pixel: what clouds leave of the star's light on its
+//                              ground, and the logarithm of its distance
 //          clouds     RGBA32F  of every second pixel: light, 1 - transmittance; scratch
+//          joined     RGBA32F  of each four of those; scratch
 //          radiance            with clouds
 
 #include "base/camera.h"
@@ -32,9 +34,10 @@ struct cloud_march {
     bool is_made; // with the programs for:
     bool is_bare, has_march;
     int peaked_count;
-    struct gpu_program march, join, shade;
-    struct gpu_texture clouds, shades; // of the last picture's size
-    struct gpu_target clouds_target, shades_target;
+    struct gpu_program march, filter, join, shade;
+    uint32_t width, height; // of the last picture
+    struct gpu_texture clouds, joined, shades;
+    struct gpu_target clouds_target, joined_target, shades_target;
 };
 
 // Uploads noise and map. The field must outlive it. TRL_ERROR_GPU, TRL_ERROR_MEMORY,

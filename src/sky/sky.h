@@ -68,7 +68,7 @@ struct sky_view {
     struct sky_surface surface;
     struct sky_spheres spheres;
 
-    const struct gpu_texture *cloud_shade; // R32F, see cloud/march.h; NULL: no clouds
+    const struct gpu_texture *cloud_shade; // RG32F, see cloud/march.h; NULL: no clouds
     double cloud_top_m;                    // altitude of the highest
     struct sky_shadow shadow;              // of the body that is main, else of the star
     struct sky_moon moon;

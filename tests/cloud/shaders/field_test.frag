@@ -11,6 +11,6 @@ void main()
 {
     float cover = cloud_cover(0, u_place.xyz, 1.0);
     cover = cloud_gathered(0, u_place.xyz, cover, u_place.w);
-    CloudPoint point = cloud_point(0, u_place.xyz, cover, u_place.w);
-    out_point = vec4(point.extinction, cloud_height(0, u_place.xyz), point.may_be_near ? 1.0 : 0.0, cover);
+    float extinction = cloud_point(0, u_place.xyz, cover, u_place.w);
+    out_point = vec4(extinction, cloud_height(0, u_place.xyz), 0.0, cover);
 }
