@@ -23,6 +23,18 @@ uniform float u_cloud_spread[8]; // by level
 uniform sampler3D u_cloud_noise;
 uniform sampler2D u_cloud_map; // cover, equirectangular, row 0 north, left edge 180 W
 
+// What is looked at often of a layer, since drivers look up arrays by an index slowly.
+struct CloudLayer {
+    vec4 shell, grain; // as the arrays
+    vec3 anchor, detail_anchor, field_anchor;
+};
+
+CloudLayer cloud_layer(int index)
+{
+    return CloudLayer(u_cloud_shell[index], u_cloud_grain[index], u_cloud_anchor[index].xyz,
+                      u_cloud_detail_anchor[index].xyz, u_cloud_field_anchor[index].xyz);
+}
+
 // Height above the sphere of a place, without a difference of large numbers.
 float cloud_altitude(vec3 place)
 {
@@ -33,22 +45,21 @@ float cloud_altitude(vec3 place)
 }
 
 // In [0, 1] within a layer.
-float cloud_height(int layer, vec3 place)
+float cloud_height(CloudLayer layer, vec3 place)
 {
-    vec4 shell = u_cloud_shell[layer];
-    return (cloud_altitude(place) - shell.x) / (shell.y - shell.x);
+    return (cloud_altitude(place) - layer.shell.x) / (layer.shell.y - layer.shell.x);
 }
 
 // The part of the sky that a layer may cover at a place. `width` is that of a pixel there, m.
-float cloud_cover(int layer, vec3 place, float width)
+float cloud_cover(CloudLayer layer, vec3 place, float width)
 {
     vec3 up = normalize(u_eye_up * u_eye.x + place);
     vec2 at = vec2(atan(up.y, up.x) * (0.5 / SHARED_PI) + 0.5,
                    0.5 - asin(clamp(up.z, -1.0, 1.0)) * (1.0 / SHARED_PI));
     float texel = 2.0 * SHARED_PI * u_planet.x / float(textureSize(u_cloud_map, 0).x);
     float map = textureLod(u_cloud_map, at, log2(max(width / texel, 1.0))).x;
-    float cover = u_cloud_shell[layer].w * (u_cloud_volume.w > 0.5 ? map : 1.0);
-    return cloud_level_cover(cover, u_cloud_grain[layer].w);
+    float cover = layer.shell.w * (u_cloud_volume.w > 0.5 ? map : 1.0);
+    return cloud_level_cover(cover, layer.grain.w);
 }
 
 float cloud_spread(float level)
@@ -58,82 +69,100 @@ float cloud_spread(float level)
     return mix(u_cloud_spread[low], u_cloud_spread[low + 1], at - float(low));
 }
 
-float cloud_texel(int layer)
+float cloud_texel(CloudLayer layer)
 {
-    return 1.0 / (u_cloud_grain[layer].x * u_cloud_volume.x);
+    return 1.0 / (layer.grain.x * u_cloud_volume.x);
 }
 
-float cloud_level(int layer, float width)
+// Below 0 where only the finer noise has more to show.
+float cloud_level(CloudLayer layer, float width)
 {
-    return log2(max(width / cloud_texel(layer), 1.0));
+    return log2(max(width / cloud_texel(layer), 1.0 / CLOUD_DETAIL_TILES));
 }
 
-// The cover of a level there, with clouds gathered into fields. `level` is of the noise.
-float cloud_gathered(int layer, vec3 place, float cover, float level)
+// What a box whose side is a texel of a level of the noise stands for.
+struct CloudBox {
+    float level, detail_level, field_level;
+    float spread, detail_spread; // of the noise in it
+    float way;                   // through clouds and gaps, m
+};
+
+CloudBox cloud_levels_box(CloudLayer layer, float level, float detail_level, float field_level)
 {
-    vec3 at =
-        u_cloud_field_anchor[layer].xyz + place * (u_cloud_grain[layer].x / CLOUD_FIELD_TILES);
-    float noise = textureLod(u_cloud_noise, at, max(level - log2(CLOUD_FIELD_TILES), 0.0)).x;
+    CloudBox box;
+    box.level = level;
+    box.detail_level = detail_level;
+    box.field_level = max(field_level, 0.0);
+    box.spread = cloud_spread(level);
+    box.detail_spread = layer.grain.z * cloud_spread(detail_level);
+    box.way = cloud_clump(layer.shell.y - layer.shell.x, 1.0 / layer.grain.x,
+                          cloud_texel(layer) * exp2(level));
+    return box;
+}
+
+CloudBox cloud_box(CloudLayer layer, float level)
+{
+    return cloud_levels_box(layer, level, level + log2(CLOUD_DETAIL_TILES),
+                            level - log2(CLOUD_FIELD_TILES));
+}
+
+// The same with whole levels, of which a look takes half the time. They are rounded up as often as
+// `rest`, in [0, 1], of near pixels is above what is missing.
+CloudBox cloud_whole_box(CloudLayer layer, float level, float rest)
+{
+    float up = level + rest;
+    return cloud_levels_box(layer, floor(up), floor(up + log2(CLOUD_DETAIL_TILES)),
+                            floor(up - log2(CLOUD_FIELD_TILES)));
+}
+
+// The cover of a level there, with clouds gathered into fields.
+float cloud_gathered(CloudLayer layer, vec3 place, float cover, CloudBox box)
+{
+    vec3 at = layer.field_anchor + place * (layer.grain.x / CLOUD_FIELD_TILES);
+    float noise = textureLod(u_cloud_noise, at, box.field_level).x;
     return cloud_gathered_cover(cover, noise);
-}
-
-// Through clouds and gaps of a box.
-float cloud_way(int layer, float level)
-{
-    return cloud_clump(u_cloud_shell[layer].y - u_cloud_shell[layer].x,
-                       1.0 / u_cloud_grain[layer].x, cloud_texel(layer) * exp2(level));
 }
 
 // Whether there may be cloud in the border around a place, or along a ray from it that is as long
 // and rises by `rise` heights of the layer. By one look.
-bool cloud_may_be_near(int layer, vec3 place, float cover, float level, float rise)
+bool cloud_may_be_near(CloudLayer layer, vec3 place, float cover, CloudBox box, float rise)
 {
-    vec4 shell = u_cloud_shell[layer];
-    vec4 grain = u_cloud_grain[layer];
     // The height that has most of the cover.
     float height = cloud_height(layer, place);
-    float best = clamp(shell.z, min(height, height + rise), max(height, height + rise));
-    float around = textureLod(u_cloud_noise, u_cloud_anchor[layer].xyz + place * grain.x, level).y;
-    float most = cloud_joint_noise(around, 1.0, grain.z) + cloud_spread(level);
-    return most > cloud_threshold(cover, cloud_height_signal(best, shell.z));
+    float best = clamp(layer.shell.z, min(height, height + rise), max(height, height + rise));
+    float around = textureLod(u_cloud_noise, layer.anchor + place * layer.grain.x, box.level).y;
+    float most = cloud_joint_noise(around, 1.0, layer.grain.z) + box.spread;
+    return most > cloud_threshold(cover, cloud_height_signal(best, layer.shell.z));
 }
 
 // Extinction, per m.
-float cloud_point(int layer, vec3 place, float cover, float level)
+float cloud_point(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
-    vec4 shell = u_cloud_shell[layer];
-    vec4 grain = u_cloud_grain[layer];
-    float signal = cloud_height_signal(cloud_height(layer, place), shell.z);
-    float detail_level = level + log2(CLOUD_DETAIL_TILES);
-    float noise = textureLod(u_cloud_noise, u_cloud_anchor[layer].xyz + place * grain.x, level).x;
-    float finer =
-        textureLod(u_cloud_noise,
-                   u_cloud_detail_anchor[layer].xyz + place * (grain.x * CLOUD_DETAIL_TILES),
-                   detail_level)
-            .x;
-    float joint = cloud_joint_noise(noise, finer, grain.z);
-    float spread =
-        cloud_joint_spread(cloud_spread(level), grain.z * cloud_spread(detail_level), joint);
+    float signal = cloud_height_signal(cloud_height(layer, place), layer.shell.z);
+    float noise = textureLod(u_cloud_noise, layer.anchor + place * layer.grain.x, box.level).x;
+    float finer = textureLod(u_cloud_noise,
+                             layer.detail_anchor + place * (layer.grain.x * CLOUD_DETAIL_TILES),
+                             box.detail_level)
+                      .x;
+    float joint = cloud_joint_noise(noise, finer, layer.grain.z);
+    float spread = cloud_joint_spread(box.spread, box.detail_spread, joint);
     float x = joint - cloud_threshold(cover, signal);
     float density = cloud_density(x, spread);
-    return cloud_extinction(density, cloud_part(x, spread), grain.y, cloud_way(layer, level));
+    return cloud_extinction(density, cloud_part(x, spread), layer.grain.y, box.way);
 }
 
 // The same by one look, for boxes so wide that the finer noise is the same in each. x: mean
 // extinction; y: where there is cloud in the box.
-vec2 cloud_coarse(int layer, vec3 place, float cover, float level)
+vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
-    vec4 shell = u_cloud_shell[layer];
-    vec4 grain = u_cloud_grain[layer];
-    float noise = textureLod(u_cloud_noise, u_cloud_anchor[layer].xyz + place * grain.x, level).x;
-    float spread =
-        cloud_joint_spread(cloud_spread(level), grain.z * cloud_spread(u_cloud_volume.y), noise);
-    float x =
-        noise - cloud_threshold(cover, cloud_height_signal(cloud_height(layer, place), shell.z));
+    float noise = textureLod(u_cloud_noise, layer.anchor + place * layer.grain.x, box.level).x;
+    float spread = cloud_joint_spread(box.spread, layer.grain.z * u_cloud_spread[7], noise);
+    float x = noise - cloud_threshold(
+                          cover, cloud_height_signal(cloud_height(layer, place), layer.shell.z));
     float density = cloud_density(x, spread);
     float part = cloud_part(x, spread);
-    return vec2(cloud_extinction(density, part, grain.y, cloud_way(layer, level)),
-                grain.y * density / max(part, 1.0e-4));
+    return vec2(cloud_extinction(density, part, layer.grain.y, box.way),
+                layer.grain.y * density / max(part, 1.0e-4));
 }
 
 // Optical depth from a place toward the star, by six places at growing distances (Michelic 2019,
@@ -143,9 +172,10 @@ const int CLOUD_SUN_FINE_PLACES = 2;
 const float CLOUD_SUN_REACH_M = 6000.0;
 
 // `width` is that of a pixel there.
-float cloud_sun_depth(int layer, vec3 place, float cover, float sun_mu, float height, float width)
+float cloud_sun_depth(CloudLayer layer, vec3 place, float cover, float sun_mu, float height,
+                      float width)
 {
-    float thick = u_cloud_shell[layer].y - u_cloud_shell[layer].x;
+    float thick = layer.shell.y - layer.shell.x;
     float reach = min((1.0 - height) * thick / max(sun_mu, 0.05), CLOUD_SUN_REACH_M);
     float sum = 0.0;
     float from = 0.0;
@@ -153,16 +183,16 @@ float cloud_sun_depth(int layer, vec3 place, float cover, float sun_mu, float he
         float part = float(i) / float(CLOUD_SUN_PLACES);
         float to = reach * part * part;
         vec3 there = place + u_sun * (0.5 * (from + to));
-        float level = cloud_level(layer, max(0.5 * (to - from), width));
-        sum += cloud_point(layer, there, cover, level) * (to - from);
+        CloudBox box = cloud_box(layer, cloud_level(layer, max(0.5 * (to - from), width)));
+        sum += cloud_point(layer, there, cover, box) * (to - from);
         from = to;
     }
     for (int i = CLOUD_SUN_FINE_PLACES + 1; i <= CLOUD_SUN_PLACES; i++) {
         float part = float(i) / float(CLOUD_SUN_PLACES);
         float to = reach * part * part;
         vec3 there = place + u_sun * (0.5 * (from + to));
-        float level = cloud_level(layer, max(0.5 * (to - from), width));
-        sum += cloud_coarse(layer, there, cover, level).x * (to - from);
+        CloudBox box = cloud_box(layer, cloud_level(layer, max(0.5 * (to - from), width)));
+        sum += cloud_coarse(layer, there, cover, box).x * (to - from);
         from = to;
     }
     return sum;

@@ -57,14 +57,16 @@ struct Shares {
     float sun, above, below;
 };
 
-Shares shares_at(int layer, vec3 place, float cover, float sun_mu, vec3 phases, float width)
+Shares shares_at(CloudLayer layer, vec3 place, float cover, float sun_mu, vec3 phases, float width)
 {
     float height = cloud_height(layer, place);
     float depth = cloud_sun_depth(layer, place, cover, sun_mu, height, width);
     // How thick the cloud around is, from a look at a box of half the layer's height.
-    float thick_m = u_cloud_shell[layer].y - u_cloud_shell[layer].x;
+    float thick_m = layer.shell.y - layer.shell.x;
     float around =
-        cloud_coarse(layer, place, cover, cloud_level(layer, max(0.5 * thick_m, width))).y;
+        cloud_coarse(layer, place, cover,
+                     cloud_whole_box(layer, cloud_level(layer, max(0.5 * thick_m, width)), 0.5))
+            .y;
     float thick = CLOUD_DIFFUSE_DEPTH * around * 0.7 * thick_m;
     float returned = thick / (1.0 + thick);
     Shares shares;

@@ -83,11 +83,13 @@ Part part_of(Ray ray, int index, float end)
     return part;
 }
 
-// Spreads the steps' beginnings over each four pixels, which join.frag takes the mean of.
-float spread_begin()
+// Spreads the steps' beginnings, and the levels that are looked at, over each four pixels, which
+// join.frag takes the mean of: x and y of each are quarters in another order.
+vec2 spread_four()
 {
     ivec2 at = ivec2(gl_FragCoord.xy) & 1;
-    return 0.125 + 0.25 * float(at.x == at.y ? 2 * at.x : 3 - 2 * at.x);
+    float rank = float(at.x == at.y ? 2 * at.x : 3 - 2 * at.x);
+    return (vec2(rank, mod(2.0 * rank + 1.0, 5.0)) + 0.5) * 0.25;
 }
 
 void main()
@@ -113,7 +115,7 @@ void main()
         ray.end_m = max(ray.begin_m, ray.chord_m - u_eye.x * ray.mu);
     }
     vec3 phases = phases_at(ray.nu);
-    float begin = spread_begin();
+    vec2 four = spread_four();
     float pixel_rad = u_disc.z;
     float left = 1.0;       // transmittance of the clouds so far
     vec4 bands = vec4(0.0); // of the clouds
@@ -134,7 +136,8 @@ void main()
         if (part.from > 0.9e30 || left < OPAQUE) {
             break;
         }
-        float texel = cloud_texel(part.layer);
+        CloudLayer layer = cloud_layer(part.layer);
+        float texel = cloud_texel(layer);
         // Steps grow with the distance; so many slices as there are enough steps for.
         float roots = pow(part.from, 1.0 / 3.0);
         float root_length = pow(part.to, 1.0 / 3.0) - roots;
@@ -150,18 +153,18 @@ void main()
             float far = float(slice) >= slices ? part.to : root * root * root;
             vec3 middle = ray.direction * (0.5 * (near + far));
             float width = 0.5 * (near + far) * pixel_rad;
-            float weather = cloud_cover(part.layer, middle, width);
+            float weather = cloud_cover(layer, middle, width);
             vec3 up = normalize(u_eye_up * u_eye.x + middle);
             float sun_mu = dot(up, u_sun);
             float usual = max(max(texel, (far - near) / float(STEPS)),
                               min(4.0 * width, (far - near) / float(LEAST_STEPS)));
-            float level = cloud_level(part.layer, max(width, 0.5 * usual));
+            CloudBox box =
+                cloud_whole_box(layer, cloud_level(layer, max(width, 0.25 * usual)), four.y);
             // At least a step, so that where nothing can be skipped no more is looked at.
             float border = max(u_cloud_volume.z * texel, usual);
-            float rise = border * dot(up, ray.direction) /
-                         (u_cloud_shell[part.layer].y - u_cloud_shell[part.layer].x);
+            float rise = border * dot(up, ray.direction) / (layer.shell.y - layer.shell.x);
             // Where steps are longer than what is in them varies, they would only make noise.
-            float offset = 0.5 + (begin - 0.5) * min(4.0 * texel / usual, 1.0);
+            float offset = 0.5 + (four.x - 0.5) * min(4.0 * texel / usual, 1.0);
             float s = weather > LEAST_COVER ? near : far;
             float stride = usual;
             bool is_inside = false;
@@ -182,13 +185,12 @@ void main()
                     }
                     float from = s;
                     float span = min(max(float(COVER_STEPS) * usual, 4.0 * border), far - s);
-                    float first = cloud_gathered(part.layer, ray.direction * from, weather, level);
-                    float last =
-                        cloud_gathered(part.layer, ray.direction * (from + span), weather, level);
+                    float first = cloud_gathered(layer, ray.direction * from, weather, box);
+                    float last = cloud_gathered(layer, ray.direction * (from + span), weather, box);
                     float most = max(first, last);
                     for (int k = 0; k < 3 * COVER_STEPS; k++) {
                         if (s >= from + span ||
-                            cloud_may_be_near(part.layer, ray.direction * s, most, level, rise)) {
+                            cloud_may_be_near(layer, ray.direction * s, most, box, rise)) {
                             break;
                         }
                         s += border;
@@ -200,8 +202,7 @@ void main()
                         }
                         float at = s + offset * step_m;
                         cover = mix(first, last, (at - from) / span);
-                        float own =
-                            cloud_point(part.layer, ray.direction * at, cover, level) * step_m;
+                        float own = cloud_point(layer, ray.direction * at, cover, box) * step_m;
                         // A long step that meets cloud is made again in short ones.
                         bool is_again = !is_inside && own > LONG_DEPTH;
                         own = is_again ? 0.0 : own;
@@ -217,8 +218,7 @@ void main()
                     break;
                 }
                 float at = depth_s / depth;
-                Shares shares =
-                    shares_at(part.layer, ray.direction * at, cover, sun_mu, phases, width);
+                Shares shares = shares_at(layer, ray.direction * at, cover, sun_mu, phases, width);
                 float weight = left * (1.0 - exp(-depth));
                 sum.sun += shares.sun * weight;
                 sum.above += shares.above * weight;

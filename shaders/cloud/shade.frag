@@ -35,16 +35,17 @@ void main()
     float altitude = cloud_altitude(place);
     float width = length(place) * u_disc.z;
     float depth = 0.0;
-    for (int layer = 0; layer < (is_ground ? u_cloud_layers : 0); layer++) {
-        float base = max(u_cloud_shell[layer].x - altitude, 0.0) / sun_mu;
-        float top = max(u_cloud_shell[layer].y - altitude, 0.0) / sun_mu;
+    for (int index = 0; index < (is_ground ? u_cloud_layers : 0); index++) {
+        CloudLayer layer = cloud_layer(index);
+        float base = max(layer.shell.x - altitude, 0.0) / sun_mu;
+        float top = max(layer.shell.y - altitude, 0.0) / sun_mu;
         float step_m = (top - base) / float(PLACES);
-        float level = cloud_level(layer, max(width, 0.5 * step_m));
+        CloudBox box = cloud_whole_box(layer, cloud_level(layer, max(width, 0.5 * step_m)), 0.5);
         vec3 middle = place + u_sun * (0.5 * (base + top));
-        float cover = cloud_gathered(layer, middle, cloud_cover(layer, middle, width), level);
+        float cover = cloud_gathered(layer, middle, cloud_cover(layer, middle, width), box);
         for (int i = 0; i < (cover > 1.0e-4 ? PLACES : 0); i++) {
             vec3 there = place + u_sun * (base + (float(i) + 0.5) * step_m);
-            depth += cloud_coarse(layer, there, cover, level).x * step_m;
+            depth += cloud_coarse(layer, there, cover, box).x * step_m;
         }
     }
     // Two streams without absorption: 1 / (1 + 3/4 (1 - g) t) goes through in all.

@@ -68,7 +68,7 @@ static void the_gpu_s_field_is_the_cpu_s(void **state)
     for (int i = 0; i < 400; i++) {
         const double angle = 2.4 * i;
         const double reach_m = 15.0 * i;
-        const double level = 0.0175 * i;
+        const double level = 0.0235 * i - 2.4;
         const struct vec3 offset = {reach_m * cos(angle), reach_m * sin(angle), 2.0 * i - 200};
         const float place[4] = {(float)offset.x, (float)offset.y, (float)offset.z, (float)level};
         const struct vec3 exact = {(double)place[0], (double)place[1], (double)place[2]};

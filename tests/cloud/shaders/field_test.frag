@@ -9,8 +9,10 @@ out vec4 out_point;
 
 void main()
 {
-    float cover = cloud_cover(0, u_place.xyz, 1.0);
-    cover = cloud_gathered(0, u_place.xyz, cover, u_place.w);
-    float extinction = cloud_point(0, u_place.xyz, cover, u_place.w);
-    out_point = vec4(extinction, cloud_height(0, u_place.xyz), 0.0, cover);
+    CloudLayer layer = cloud_layer(0);
+    CloudBox box = cloud_box(layer, u_place.w);
+    float cover = cloud_cover(layer, u_place.xyz, 1.0);
+    cover = cloud_gathered(layer, u_place.xyz, cover, box);
+    float extinction = cloud_point(layer, u_place.xyz, cover, box);
+    out_point = vec4(extinction, cloud_height(layer, u_place.xyz), 0.0, cover);
 }
