@@ -29,8 +29,8 @@ double cloud_field_highest_m(const struct cloud_field *field); // the uppermost 
 // The part of each height that a layer may cover over a place, from the planet's centre.
 double cloud_field_cover(const struct cloud_field *field, size_t layer, struct vec3 position_m);
 
-// Mean extinction, per m, at a place of a box whose side is a texel of the level: 0 for those of the
-// noise, -2.6 for those of the finer, as fine as there is.
+// Mean extinction, per m, at a place of a box whose side is a texel of the level: 0 for those of
+// the noise, -2.6 for those of the finer, as fine as there is.
 double cloud_field_extinction(const struct cloud_field *field, size_t layer, struct vec3 position_m,
                               double level);
 

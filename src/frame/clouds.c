@@ -2,35 +2,53 @@
 // SPDX-License-Identifier: MIT
 #include "frame/clouds.h"
 
-trl_result clouds_init(struct gpu *gpu, const struct trl_scene *scene, struct clouds *out)
+void clouds_init(struct gpu *gpu, const struct trl_scene *scene, struct clouds *out)
 {
-    *out = (struct clouds){.ctx = gpu->ctx};
-    if (scene->clouds.layer_count == 0) {
+    *out = (struct clouds){.ctx = gpu->ctx, .gpu = gpu, .scene = scene};
+}
+
+static trl_result make_field(const struct clouds *clouds, struct cloud_field **out)
+{
+    struct cloud_field *field = mem_alloc(clouds->ctx, 1, sizeof *field);
+    const trl_result result = field ? cloud_field_init(clouds->ctx, &clouds->scene->clouds,
+                                                       clouds->scene->medium.ground_radius_m, field)
+                                    : TRL_ERROR_MEMORY;
+    if (result != TRL_OK) {
+        mem_free(clouds->ctx, field);
+        field = NULL;
+    }
+    *out = field;
+    return result;
+}
+
+static void finish_field(struct clouds *clouds)
+{
+    if (clouds->field) {
+        cloud_march_finish(&clouds->march);
+        cloud_field_finish(clouds->field);
+        mem_free(clouds->ctx, clouds->field);
+        clouds->field = NULL;
+    }
+}
+
+trl_result clouds_make(struct clouds *clouds, const struct sky *sky)
+{
+    if (clouds->field || clouds->scene->clouds.layer_count == 0 || !sky->model->get_air) {
         return TRL_OK;
     }
-    struct cloud_field *field = mem_alloc(gpu->ctx, 1, sizeof *field);
-    if (!field) {
-        return TRL_ERROR_MEMORY;
-    }
-    out->field = field;
-    trl_result result =
-        cloud_field_init(gpu->ctx, &scene->clouds, scene->medium.ground_radius_m, field);
+    trl_result result = make_field(clouds, &clouds->field);
     if (result == TRL_OK) {
-        result = cloud_march_init(gpu, field, &out->march);
+        result = cloud_march_init(clouds->gpu, clouds->field, &clouds->march);
     }
     if (result != TRL_OK) {
-        clouds_finish(out);
+        finish_field(clouds);
     }
     return result;
 }
 
 void clouds_finish(struct clouds *clouds)
 {
-    if (clouds->field) {
-        cloud_march_finish(&clouds->march);
-        cloud_field_finish(clouds->field);
-        mem_free(clouds->ctx, clouds->field);
-    }
+    finish_field(clouds);
     *clouds = (struct clouds){0};
 }
 
@@ -44,7 +62,7 @@ void clouds_announce(struct clouds *clouds, const struct sky *sky, struct sky_vi
     if (clouds_are_drawn(clouds, sky)) {
         view->cloud_shade = &clouds->march.shades;
         view->cloud_top_m = cloud_field_highest_m(clouds->field);
-    } else if (clouds->field && !clouds->is_told) {
+    } else if (clouds->scene->clouds.layer_count > 0 && !clouds->is_told) {
         clouds->is_told = true;
         trl_log(clouds->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_SCENE,
                 "this model of the sky draws no clouds; spectral does");

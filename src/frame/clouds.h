@@ -11,14 +11,17 @@
 
 struct clouds {
     const trl_context *ctx;
-    struct cloud_field *field; // owned; NULL: the scene has none
+    struct gpu *gpu;
+    const struct trl_scene *scene; // must outlive it
+    struct cloud_field *field;     // owned; NULL: no model has asked for them, or there are none
     struct cloud_march march;
     bool is_told;
 };
 
-// TRL_ERROR_IO, TRL_ERROR_INVALID (the map); as cloud_march_init.
-TRL_MUST_USE trl_result clouds_init(struct gpu *gpu, const struct trl_scene *scene,
-                                    struct clouds *out);
+void clouds_init(struct gpu *gpu, const struct trl_scene *scene, struct clouds *out);
+// When frames will be drawn with that model: loads and computes what it needs of the clouds, if it
+// draws any. TRL_ERROR_IO, TRL_ERROR_INVALID (the map); as cloud_march_init.
+TRL_MUST_USE trl_result clouds_make(struct clouds *clouds, const struct sky *sky);
 void clouds_finish(struct clouds *clouds);
 
 // There are some, and the model can.

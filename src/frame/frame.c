@@ -67,7 +67,10 @@ trl_result frame_set_sky_model(struct frame *frame, trl_sky_model model)
     }
     const struct sky_desc desc = describe_sky(frame);
     struct sky *sky = &frame->skies[model];
-    const trl_result result = sky->self ? TRL_OK : sky_init(&desc, model, sky);
+    trl_result result = sky->self ? TRL_OK : sky_init(&desc, model, sky);
+    if (result == TRL_OK) {
+        result = clouds_make(&frame->clouds, sky);
+    }
     frame->sky_model = result == TRL_OK ? model : frame->sky_model;
     return result;
 }
@@ -149,9 +152,7 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
         result = ground_init(out->gpu, &ground, &out->ground);
     }
     if (result == TRL_OK) {
-        result = clouds_init(out->gpu, desc->scene, &out->clouds);
-    }
-    if (result == TRL_OK) {
+        clouds_init(out->gpu, desc->scene, &out->clouds);
         result = frame_set_sky_model(out, desc->sky_model);
     }
     if (result == TRL_OK) {
