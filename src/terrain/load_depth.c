@@ -78,13 +78,52 @@ static bool find_water(const struct mask_row *row, uint32_t x, struct step *step
     return at[0] || step->x != 0 || step->y != 0;
 }
 
+static struct layer_place find_place(const struct mask_row *row, const struct layer_frame *f,
+                                     double x, double y)
+{
+    const struct layer_geo at = layer_geo_of(row->frame, x, y);
+    return layer_locate(f, at.latitude, at.longitude);
+}
+
+// A stretch of a mask's row and where it lies in a map about a pole. A circle of latitude bends
+// little over so few texels: chords leave it by an eighth of the radius times the angle squared,
+// which is a tenth of a texel for masks of half a degree. Elsewhere places jump where the circle
+// closes.
+enum { STRETCH = 16 };
+struct stretch {
+    uint32_t begin, end;
+    struct layer_place ends[2];
+    bool is_straight; // else each place is found by itself
+};
+
+static struct stretch stretch_make(const struct mask_row *row, const struct layer_frame *f,
+                                   uint32_t begin)
+{
+    const uint32_t end = begin + STRETCH;
+    struct stretch s = {.begin = begin, .end = end};
+    if (f->pole != 0 && row->frame->pole == 0) {
+        s.ends[0] = find_place(row, f, begin, row->y);
+        s.ends[1] = find_place(row, f, end, row->y);
+        s.is_straight = s.ends[0].weight > 0 && s.ends[1].weight > 0;
+    }
+    return s;
+}
+
+static struct layer_place place_along(const struct stretch *s, double x)
+{
+    const double part = (x - s->begin) / STRETCH;
+    return (struct layer_place){s->ends[0].x + part * (s->ends[1].x - s->ends[0].x),
+                                s->ends[0].y + part * (s->ends[1].y - s->ends[0].y),
+                                s->ends[0].weight};
+}
+
 // Texels of the mask that have water take the height where they are.
 static void note_row(const struct mask_row *row, const struct terrain_layer *layer)
 {
-    const struct layer_frame *mask = row->frame;
-    const uint32_t y = row->y;
-    const int64_t same = find_same_row(mask, &layer->frame, y);
-    for (uint32_t x = 0; x < mask->width; x++) {
+    const struct layer_frame *f = &layer->frame;
+    const int64_t same = find_same_row(row->frame, f, row->y);
+    struct stretch stretch = {.end = 0};
+    for (uint32_t x = 0; x < row->frame->width; x++) {
         struct step step;
         if (!find_water(row, x, &step)) {
             continue;
@@ -93,15 +132,21 @@ static void note_row(const struct mask_row *row, const struct terrain_layer *lay
             row->codes[x] = code_of(layer_texel(layer, (int64_t)x + step.x, same + step.y));
             continue;
         }
-        const struct layer_geo at = layer_geo_of(mask, (double)x + step.x, (double)y + step.y);
-        const struct layer_place p = layer_locate(&layer->frame, at.latitude, at.longitude);
+        if (x >= stretch.end) {
+            stretch = stretch_make(row, f, x);
+        }
+        const double at_x = (double)x + step.x, at_y = (double)row->y + step.y;
+        const struct layer_place p = stretch.is_straight && step.y == 0
+                                         ? place_along(&stretch, at_x)
+                                         : find_place(row, f, at_x, at_y);
         if (p.weight > 0) {
             row->codes[x] = code_of(layer_sample_held_linear(layer, p.x, p.y));
         }
     }
 }
 
-// Whether a layer below has a height for each texel of the mask, which a coarser one need not bend.
+// Whether a layer below has a height for each texel of the mask. One that is not thrice as fine as
+// the mask need not bend them: the mask could not hold what it knows better.
 static bool is_known(const struct surface *surface, const struct layer_frame *mask,
                      const struct terrain_layer *layer)
 {
@@ -110,7 +155,7 @@ static bool is_known(const struct surface *surface, const struct layer_frame *ma
         const struct terrain_layer *below = &surface->layers[SURFACE_ELEVATION][i];
         is_filled = is_filled || find_same_row(mask, &below->frame, mask->height / 2) >= 0;
     }
-    return is_filled && layer->frame.texel_height > 0.9 * mask->texel_height;
+    return is_filled && 3 * layer->frame.texel_height > mask->texel_height;
 }
 
 void load_note_depths(struct surface *surface, const struct terrain_layer *layer)

@@ -6,6 +6,7 @@
 
 #include "shared/blend.glsl"
 #include "shared/projection.glsl"
+#include "shared/sea.glsl"
 #include "terrain/look.h"
 
 #include <gdal.h>
@@ -395,6 +396,63 @@ static void test_bad_layers_are_left_out(void **state)
     surface_finish(&s);
 }
 
+static double shallow(double latitude, double longitude)
+{
+    return -40 + 10 * sin(3 * longitude * DEGREE) * cos(latitude * DEGREE);
+}
+
+static double deep(double latitude, double longitude)
+{
+    (void)latitude;
+    (void)longitude;
+    return -90;
+}
+
+static double all_water(double latitude, double longitude)
+{
+    (void)latitude;
+    (void)longitude;
+    return 255;
+}
+
+// A finer map about the pole tells the mask's water how deep it is, and the globe's heights beyond.
+static void test_the_sea_about_a_pole_is_as_deep_as_its_map(void **state)
+{
+    const struct fixture *f = *state;
+    char paths[3][128];
+    const struct raster_place everywhere = {-180, 90, 0.5, 720, 360};
+    const struct polar_file north = {"north", "EPSG:3413", 2e6, 400, 1, shallow};
+    fixture_write_heights(f, "deep", &everywhere, deep, paths[0]);
+    write_polar(f, &north, paths[1]);
+    fixture_write_bytes(f, "water", &everywhere, all_water, paths[2]);
+    struct surface_layer_desc layers[3];
+    for (int i = 0; i < 3; i++) {
+        layers[i] =
+            (struct surface_layer_desc){.kind = SURFACE_ELEVATION, .path = paths[i], .scale = 1};
+    }
+    layers[2].kind = SURFACE_WATER;
+    struct surface_desc desc = surface_desc_default();
+    desc.radius_m = R;
+    desc.layer_count = 3;
+    desc.layers = layers;
+    desc.is_strict = true;
+    desc.depth = (struct surface_depth){.is_told = true, .everywhere_m = -1};
+    struct surface s;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &s), TRL_OK);
+    for (int k = 0; k < 200; k++) {
+        const double latitude = 75.3 + 14.6 * k / 200, longitude = fmod(k * 77.7, 360) - 180;
+        double code;
+        const struct vec3 at = vec3_from_lat_lon(latitude * DEGREE, longitude * DEGREE);
+        assert_close(surface_water(&s, at, &code), 1, 0);
+        // Codes of bytes have steps of 0.7 and 1.1 m there; a texel of the mask, 0.1 m.
+        assert_close(sea_code_depth(code), -shallow(latitude, longitude), 0.5);
+        const struct vec3 south = vec3_from_lat_lon(-latitude * DEGREE, longitude * DEGREE);
+        assert_close(surface_water(&s, south, &code), 1, 0);
+        assert_close(sea_code_depth(code), 90, 0.6);
+    }
+    surface_finish(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -402,6 +460,7 @@ int main(void)
         cmocka_unit_test(test_seams_of_projections_do_not_show),
         cmocka_unit_test(test_the_gpu_has_the_cpus_heights_at_the_poles),
         cmocka_unit_test(test_colours_and_normals_are_the_cpus),
+        cmocka_unit_test(test_the_sea_about_a_pole_is_as_deep_as_its_map),
         cmocka_unit_test(test_small_steps_keep_their_digits),
         cmocka_unit_test(test_layers_blend_as_they_say),
         cmocka_unit_test(test_bad_layers_are_left_out),
