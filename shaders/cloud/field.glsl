@@ -17,6 +17,7 @@ uniform vec4
 uniform vec4 u_cloud_anchor[CLOUD_MAX_LAYERS];        // the eye in tiles, without whole ones
 uniform vec4 u_cloud_detail_anchor[CLOUD_MAX_LAYERS]; // the same of the finer noise
 uniform vec4 u_cloud_field_anchor[CLOUD_MAX_LAYERS];  // and of the coarser
+uniform vec4 u_cloud_wide_anchor[CLOUD_MAX_LAYERS];   // and of the coarsest, axes y, z, x
 uniform vec4 u_cloud_volume;     // texels a side, its last level, border in texels, whether
                                  // there is a map
 uniform float u_cloud_spread[8]; // by level
@@ -26,13 +27,14 @@ uniform sampler2D u_cloud_map; // cover, equirectangular, row 0 north, left edge
 // What is looked at often of a layer, since drivers look up arrays by an index slowly.
 struct CloudLayer {
     vec4 shell, grain; // as the arrays
-    vec3 anchor, detail_anchor, field_anchor;
+    vec3 anchor, detail_anchor, field_anchor, wide_anchor;
 };
 
 CloudLayer cloud_layer(int index)
 {
     return CloudLayer(u_cloud_shell[index], u_cloud_grain[index], u_cloud_anchor[index].xyz,
-                      u_cloud_detail_anchor[index].xyz, u_cloud_field_anchor[index].xyz);
+                      u_cloud_detail_anchor[index].xyz, u_cloud_field_anchor[index].xyz,
+                      u_cloud_wide_anchor[index].xyz);
 }
 
 // Height above the sphere of a place, without a difference of large numbers.
@@ -120,7 +122,9 @@ float cloud_gathered(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
     vec3 at = layer.field_anchor + place * (layer.grain.x / CLOUD_FIELD_TILES);
     float noise = textureLod(u_cloud_noise, at, box.field_level).x;
-    return cloud_gathered_cover(cover, noise);
+    vec3 wide_at = layer.wide_anchor + place.yzx * (layer.grain.x / CLOUD_WIDE_TILES);
+    float wide_level = max(box.level - floor(log2(CLOUD_WIDE_TILES)), 0.0);
+    return cloud_gathered_cover(cover, noise, textureLod(u_cloud_noise, wide_at, wide_level).x);
 }
 
 // Whether there may be cloud in the border around a place, or along a ray from it that is as long

@@ -4,6 +4,7 @@
 // rays begin their steps at different places, into one between them; without it each pixel takes of
 // the four around it. Both take those whose rays end about where their own does, so that no cloud
 // behind a ridge hangs before it.
+// Where pixels are so wide that nothing is left to be spread, it takes what was marched.
 // validate: SURFACE
 // validate: SURFACE; FILTER
 
@@ -12,6 +13,10 @@
 in vec2 v_uv;
 
 uniform sampler2D u_clouds;
+#ifndef FILTER
+uniform sampler2D u_joined;
+uniform float u_sharp; // share of what was marched
+#endif
 #ifdef SURFACE
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
 #endif
@@ -30,41 +35,46 @@ float find_end(ivec2 pixel)
 #endif
 }
 
-#ifdef FILTER
-const int TAPS_AT = 0; // of the first two pixels
-#else
-const int TAPS_AT = 1;
-#endif
-
-void main()
+// Of four from the first on; those of `offset` 0 stand at even pixels, of 1 at odd ones. Alike within
+// some per cent counts as one surface.
+vec4 join_four(sampler2D clouds, ivec2 pixel, int offset, bool is_mean)
 {
-    ivec2 last = textureSize(u_clouds, 0) - 1;
-#ifdef FILTER
-    ivec2 first = ivec2(gl_FragCoord.xy);
-    ivec2 pixel = 2 * first + 1;
-    vec2 part = vec2(0.5);
-#else
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    ivec2 first = (pixel + 1) / 2 - 1;
-    vec2 part = vec2(pixel - 2 * first - 1) * 0.5;
-#endif
+    ivec2 last = textureSize(clouds, 0) - 1;
 #ifdef SURFACE
     ivec2 edge = textureSize(u_position, 0) - 1;
 #else
     ivec2 edge = pixel;
 #endif
+    ivec2 first = (pixel + offset) / 2 - offset;
+    vec2 part = is_mean ? vec2(0.5) : vec2(pixel - 2 * first - offset) * 0.5;
     float own = log(find_end(min(pixel, edge)));
     vec4 sum = vec4(0.0);
     float weights = 0.0;
     for (int n = 0; n < 4; n++) {
-        ivec2 offset = ivec2(n & 1, n >> 1);
-        ivec2 at = clamp(first + offset, ivec2(0), last);
-        vec2 near = mix(1.0 - part, part, vec2(offset));
-        float apart = abs(log(find_end(min(2 * at + TAPS_AT, edge))) - own);
-        // Alike within some per cent counts as one surface.
+        ivec2 corner = ivec2(n & 1, n >> 1);
+        ivec2 at = clamp(first + corner, ivec2(0), last);
+        vec2 near = mix(1.0 - part, part, vec2(corner));
+        float apart = abs(log(find_end(min(2 * at + offset, edge))) - own);
         float weight = (near.x * near.y + 1.0e-4) / (1.0 + 4.0e3 * apart * apart * apart);
-        sum += texelFetch(u_clouds, at, 0) * weight;
+        sum += texelFetch(clouds, at, 0) * weight;
         weights += weight;
     }
-    out_clouds = sum / weights;
+    return sum / weights;
+}
+
+void main()
+{
+#ifdef FILTER
+    out_clouds = join_four(u_clouds, 2 * ivec2(gl_FragCoord.xy) + 1, 0, true);
+#else
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    out_clouds = vec4(0.0);
+    // Loops, since branches save nothing.
+    for (int once = 0; once < (u_sharp < 1.0 ? 1 : 0); once++) {
+        out_clouds += (1.0 - u_sharp) * join_four(u_joined, pixel, 1, false);
+    }
+    for (int once = 0; once < (u_sharp > 0.0 ? 1 : 0); once++) {
+        out_clouds += u_sharp * join_four(u_clouds, pixel, 0, false);
+    }
+#endif
 }

@@ -33,12 +33,14 @@ SHARED_FN Number cloud_level_cover(Number cover, Number overlap)
     return 1.0 - pow(shared_max(1.0 - cover, 1.0e-6), overlap);
 }
 
-// The same volume in tiles that are larger by this gathers clouds into fields, and hides that the
-// tiles repeat. `noise` of it moves the odds of cloud, so that none stays none and all stays all.
+// The same volume in tiles that are larger by this gathers clouds into fields, and in still larger
+// ones, along other axes, these into regions, which hides that tiles repeat. Both noises move the odds
+// of cloud, so that none stays none and all stays all.
 #define CLOUD_FIELD_TILES 5.31
-SHARED_FN Number cloud_gathered_cover(Number cover, Number noise)
+#define CLOUD_WIDE_TILES 37.7
+SHARED_FN Number cloud_gathered_cover(Number cover, Number noise, Number wide)
 {
-    Number odds = exp(3.0 * (noise - 0.5));
+    Number odds = exp(2.2 * (noise + wide - 1.0));
     return cover * odds / (1.0 - cover + cover * odds);
 }
 

@@ -92,6 +92,28 @@ double cloud_field_cover(const struct cloud_field *field, size_t layer, struct v
     return cloud_level_cover(l->cover * map, cloud_field_overlap(l->type));
 }
 
+struct vec3 cloud_field_wide_place(struct vec3 position_m)
+{
+    return (struct vec3){position_m.y, position_m.z, position_m.x};
+}
+
+// The cover of one height there, with clouds gathered.
+static double find_gathered(const struct cloud_field *field, size_t layer, struct vec3 position_m,
+                            double level)
+{
+    const double scale_m = field->desc.layers[layer].scale_m;
+    const struct vec3 field_place = vec3_scale(position_m, 1 / (scale_m * CLOUD_FIELD_TILES));
+    const struct vec3 wide_place =
+        vec3_scale(cloud_field_wide_place(position_m), 1 / (scale_m * CLOUD_WIDE_TILES));
+    const double narrow[3] = {field_place.x, field_place.y, field_place.z};
+    const double wide[3] = {wide_place.x, wide_place.y, wide_place.z};
+    const double narrow_level = fmax(0, level - log(CLOUD_FIELD_TILES) / log(2));
+    const double wide_level = fmax(0, level - floor(log(CLOUD_WIDE_TILES) / log(2)));
+    return cloud_gathered_cover(cloud_field_cover(field, layer, position_m),
+                                cloud_volume_sample(&field->volume, narrow, narrow_level).value,
+                                cloud_volume_sample(&field->volume, wide, wide_level).value);
+}
+
 double cloud_field_extinction(const struct cloud_field *field, size_t layer, struct vec3 position_m,
                               double level)
 {
@@ -107,11 +129,9 @@ double cloud_field_extinction(const struct cloud_field *field, size_t layer, str
     const double at[3] = {position_m.x, position_m.y, position_m.z};
     double place[3];
     double finer_place[3];
-    double coarse_place[3];
     for (int k = 0; k < 3; k++) {
         place[k] = at[k] / l->scale_m;
         finer_place[k] = place[k] * CLOUD_DETAIL_TILES;
-        coarse_place[k] = place[k] / CLOUD_FIELD_TILES;
     }
     const double noise = cloud_volume_sample(&field->volume, place, level).value;
     const double finer = cloud_volume_sample(&field->volume, finer_place, finer_level).value;
@@ -119,10 +139,7 @@ double cloud_field_extinction(const struct cloud_field *field, size_t layer, str
     const double spread =
         cloud_joint_spread(cloud_volume_spread(&field->volume, level),
                            weight * cloud_volume_spread(&field->volume, finer_level), joint);
-    const double coarse_level = fmax(0, level - log(CLOUD_FIELD_TILES) / log(2));
-    const double cover =
-        cloud_gathered_cover(cloud_field_cover(field, layer, position_m),
-                             cloud_volume_sample(&field->volume, coarse_place, coarse_level).value);
+    const double cover = find_gathered(field, layer, position_m, level);
     const double x = joint - cloud_threshold(cover, signal);
     const double way_m =
         cloud_clump(l->top_m - l->base_m, l->scale_m, l->scale_m / CLOUD_SIDE * exp2(level));

@@ -34,6 +34,10 @@ double cloud_field_cover(const struct cloud_field *field, size_t layer, struct v
 double cloud_field_extinction(const struct cloud_field *field, size_t layer, struct vec3 position_m,
                               double level);
 
+// Where the widest noise is looked at for a place: along other axes, so that its tiles do not line up
+// with the others.
+struct vec3 cloud_field_wide_place(struct vec3 position_m);
+
 // Weight of the finer noise and the place of the greatest width, by type.
 double cloud_field_detail(enum cloud_type type);
 double cloud_field_peak(enum cloud_type type);

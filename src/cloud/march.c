@@ -201,6 +201,7 @@ void cloud_march_set_field(const struct cloud_march *m, const struct camera *cam
     float anchor[CLOUD_MAX_LAYERS][4] = {{0}};
     float finer[CLOUD_MAX_LAYERS][4] = {{0}};
     float gathered[CLOUD_MAX_LAYERS][4] = {{0}};
+    float wide[CLOUD_MAX_LAYERS][4] = {{0}};
     float spread[CLOUD_LEVELS];
     for (size_t i = 0; i < field->desc.layer_count; i++) {
         const struct cloud_layer *l = &field->desc.layers[i];
@@ -215,6 +216,8 @@ void cloud_march_set_field(const struct cloud_march *m, const struct camera *cam
         set_anchor(anchor[i], camera->position_m, l->scale_m);
         set_anchor(finer[i], camera->position_m, l->scale_m / CLOUD_DETAIL_TILES);
         set_anchor(gathered[i], camera->position_m, l->scale_m * CLOUD_FIELD_TILES);
+        set_anchor(wide[i], cloud_field_wide_place(camera->position_m),
+                   l->scale_m * CLOUD_WIDE_TILES);
     }
     for (int level = 0; level < CLOUD_LEVELS; level++) {
         spread[level] = (float)field->volume.spread[level];
@@ -227,6 +230,7 @@ void cloud_march_set_field(const struct cloud_march *m, const struct camera *cam
     gpu_program_set_vec4s(program, "u_cloud_anchor", anchor[0], CLOUD_MAX_LAYERS);
     gpu_program_set_vec4s(program, "u_cloud_detail_anchor", finer[0], CLOUD_MAX_LAYERS);
     gpu_program_set_vec4s(program, "u_cloud_field_anchor", gathered[0], CLOUD_MAX_LAYERS);
+    gpu_program_set_vec4s(program, "u_cloud_wide_anchor", wide[0], CLOUD_MAX_LAYERS);
     gpu_program_set_floats(program, "u_cloud_spread", spread, CLOUD_LEVELS);
     gpu_program_set_vec4(program, "u_cloud_volume", volume);
     gpu_program_set_texture(program, "u_cloud_noise", &m->noise);
@@ -262,6 +266,21 @@ trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view 
     return gpu_draw_fullscreen(&march->shade, "clouds");
 }
 
+// From pixels of 16 texels of the finest noise on less and less is spread, from 64 on nothing.
+static float find_sharpness(const struct cloud_march *march, const struct cloud_view *view)
+{
+    const struct cloud_field *field = march->field;
+    const double above_m = vec3_length(view->camera->position_m) - field->ground_radius_m -
+                           cloud_field_highest_m(field);
+    const double pixel_rad = 2 * view->camera->tan_half_fov_y / view->target->height;
+    double scale_m = INFINITY;
+    for (size_t i = 0; i < field->desc.layer_count; i++) {
+        scale_m = fmin(scale_m, field->desc.layers[i].scale_m);
+    }
+    const double texels = above_m * pixel_rad / (scale_m / CLOUD_SIDE);
+    return (float)fmax(0, fmin(1, (log(fmax(texels, 1)) / log(2) - 4) / 2));
+}
+
 static trl_result join(struct cloud_march *march, const struct cloud_view *view)
 {
     const struct gpu_pass filter = {.target = &march->joined_target};
@@ -275,7 +294,9 @@ static trl_result join(struct cloud_march *march, const struct cloud_view *view)
     const struct gpu_pass join = {.target = view->target,
                                   .state = {.blend = GPU_BLEND_PREMULTIPLIED}};
     set_view(view, &march->join);
-    gpu_program_set_texture(&march->join, "u_clouds", &march->joined);
+    gpu_program_set_texture(&march->join, "u_clouds", &march->clouds);
+    gpu_program_set_texture(&march->join, "u_joined", &march->joined);
+    gpu_program_set_float(&march->join, "u_sharp", find_sharpness(march, view));
     gpu_pass_begin(march->gpu, &join);
     return gpu_draw_fullscreen(&march->join, "clouds");
 }
