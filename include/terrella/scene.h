@@ -113,7 +113,7 @@ typedef struct trl_view {
                                           ///< horizontal
     double sun_longitude_or_azimuth_rad;  ///< subsolar longitude, or azimuth clockwise from north
     double sidereal_rad; ///< right ascension over longitude 0: how far the planet has turned
-    double time_s;       ///< at which the waves of an ocean are shown
+    double time_s;       ///< at which the waves of an ocean and clouds in the wind are shown
     trl_body_place bodies[TRL_VIEW_MAX_BODIES]; ///< in the order of the scene's; others absent
     bool has_fixed_exposure;                    ///< else exposure is found from the picture
     double exposure_ev100;                      ///< exposure value at ISO 100, when fixed

@@ -18,6 +18,7 @@ uniform vec4 u_cloud_anchor[CLOUD_MAX_LAYERS];        // the eye in tiles, witho
 uniform vec4 u_cloud_detail_anchor[CLOUD_MAX_LAYERS]; // the same of the finer noise
 uniform vec4 u_cloud_field_anchor[CLOUD_MAX_LAYERS];  // and of the coarser
 uniform vec4 u_cloud_wide_anchor[CLOUD_MAX_LAYERS];   // and of the coarsest, axes y, z, x
+uniform vec4 u_cloud_turn[CLOUD_MAX_LAYERS]; // cosine and sine of how far the wind has turned it
 uniform vec4 u_cloud_volume;     // texels a side, its last level, border in texels, whether
                                  // there is a map
 uniform float u_cloud_spread[8]; // by level
@@ -28,13 +29,21 @@ uniform sampler2D u_cloud_map; // cover, equirectangular, row 0 north, left edge
 struct CloudLayer {
     vec4 shell, grain; // as the arrays
     vec3 anchor, detail_anchor, field_anchor, wide_anchor;
+    vec2 turn;
 };
 
 CloudLayer cloud_layer(int index)
 {
     return CloudLayer(u_cloud_shell[index], u_cloud_grain[index], u_cloud_anchor[index].xyz,
                       u_cloud_detail_anchor[index].xyz, u_cloud_field_anchor[index].xyz,
-                      u_cloud_wide_anchor[index].xyz);
+                      u_cloud_wide_anchor[index].xyz, u_cloud_turn[index].xy);
+}
+
+// A place, or a direction, as the layer had it before the wind turned it.
+vec3 cloud_unturned(CloudLayer layer, vec3 place)
+{
+    vec2 turn = layer.turn;
+    return vec3(turn.x * place.x + turn.y * place.y, turn.x * place.y - turn.y * place.x, place.z);
 }
 
 // Height above the sphere of a place, without a difference of large numbers.
@@ -55,7 +64,7 @@ float cloud_height(CloudLayer layer, vec3 place)
 // The part of the sky that a layer may cover at a place. `width` is that of a pixel there, m.
 float cloud_cover(CloudLayer layer, vec3 place, float width)
 {
-    vec3 up = normalize(u_eye_up * u_eye.x + place);
+    vec3 up = cloud_unturned(layer, normalize(u_eye_up * u_eye.x + place));
     vec2 at = vec2(atan(up.y, up.x) * (0.5 / SHARED_PI) + 0.5,
                    0.5 - asin(clamp(up.z, -1.0, 1.0)) * (1.0 / SHARED_PI));
     float texel = 2.0 * SHARED_PI * u_planet.x / float(textureSize(u_cloud_map, 0).x);
@@ -120,9 +129,10 @@ CloudBox cloud_whole_box(CloudLayer layer, float level, float rest)
 // The cover of a level there, with clouds gathered into fields.
 float cloud_gathered(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
-    vec3 at = layer.field_anchor + place * (layer.grain.x / CLOUD_FIELD_TILES);
+    vec3 unturned = cloud_unturned(layer, place);
+    vec3 at = layer.field_anchor + unturned * (layer.grain.x / CLOUD_FIELD_TILES);
     float noise = textureLod(u_cloud_noise, at, box.field_level).x;
-    vec3 wide_at = layer.wide_anchor + place.yzx * (layer.grain.x / CLOUD_WIDE_TILES);
+    vec3 wide_at = layer.wide_anchor + unturned.yzx * (layer.grain.x / CLOUD_WIDE_TILES);
     float wide_level = max(box.level - floor(log2(CLOUD_WIDE_TILES)), 0.0);
     return cloud_gathered_cover(cover, noise, textureLod(u_cloud_noise, wide_at, wide_level).x);
 }
@@ -134,7 +144,10 @@ bool cloud_may_be_near(CloudLayer layer, vec3 place, float cover, CloudBox box, 
     // The height that has most of the cover.
     float height = cloud_height(layer, place);
     float best = clamp(layer.shell.z, min(height, height + rise), max(height, height + rise));
-    float around = textureLod(u_cloud_noise, layer.anchor + place * layer.grain.x, box.level).y;
+    float around =
+        textureLod(u_cloud_noise, layer.anchor + cloud_unturned(layer, place) * layer.grain.x,
+                   box.level)
+            .y;
     float most = cloud_joint_noise(around, 1.0, layer.grain.z) + box.spread;
     return most > cloud_threshold(cover, cloud_height_signal(best, layer.shell.z));
 }
@@ -143,9 +156,12 @@ bool cloud_may_be_near(CloudLayer layer, vec3 place, float cover, CloudBox box, 
 float cloud_point(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
     float signal = cloud_height_signal(cloud_height(layer, place), layer.shell.z);
-    float noise = textureLod(u_cloud_noise, layer.anchor + place * layer.grain.x, box.level).x;
+    float noise = textureLod(u_cloud_noise,
+                             layer.anchor + cloud_unturned(layer, place) * layer.grain.x, box.level)
+                      .x;
     float finer = textureLod(u_cloud_noise,
-                             layer.detail_anchor + place * (layer.grain.x * CLOUD_DETAIL_TILES),
+                             layer.detail_anchor + cloud_unturned(layer, place) *
+                                                       (layer.grain.x * CLOUD_DETAIL_TILES),
                              box.detail_level)
                       .x;
     float joint = cloud_joint_noise(noise, finer, layer.grain.z);
@@ -159,7 +175,9 @@ float cloud_point(CloudLayer layer, vec3 place, float cover, CloudBox box)
 // extinction; y: where there is cloud in the box.
 vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
-    float noise = textureLod(u_cloud_noise, layer.anchor + place * layer.grain.x, box.level).x;
+    float noise = textureLod(u_cloud_noise,
+                             layer.anchor + cloud_unturned(layer, place) * layer.grain.x, box.level)
+                      .x;
     float spread = cloud_joint_spread(box.spread, layer.grain.z * u_cloud_spread[7], noise);
     float x = noise - cloud_threshold(
                           cover, cloud_height_signal(cloud_height(layer, place), layer.shell.z));

@@ -35,8 +35,8 @@ float find_end(ivec2 pixel)
 #endif
 }
 
-// Of four from the first on; those of `offset` 0 stand at even pixels, of 1 at odd ones. Alike within
-// some per cent counts as one surface.
+// Of four from the first on; those of `offset` 0 stand at even pixels, of 1 at odd ones. Alike
+// within some per cent counts as one surface.
 vec4 join_four(sampler2D clouds, ivec2 pixel, int offset, bool is_mean)
 {
     ivec2 last = textureSize(clouds, 0) - 1;

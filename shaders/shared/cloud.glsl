@@ -34,8 +34,8 @@ SHARED_FN Number cloud_level_cover(Number cover, Number overlap)
 }
 
 // The same volume in tiles that are larger by this gathers clouds into fields, and in still larger
-// ones, along other axes, these into regions, which hides that tiles repeat. Both noises move the odds
-// of cloud, so that none stays none and all stays all.
+// ones, along other axes, these into regions, which hides that tiles repeat. Both noises move the
+// odds of cloud, so that none stays none and all stays all.
 #define CLOUD_FIELD_TILES 5.31
 #define CLOUD_WIDE_TILES 37.7
 SHARED_FN Number cloud_gathered_cover(Number cover, Number noise, Number wide)

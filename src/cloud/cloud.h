@@ -20,6 +20,7 @@ struct cloud_layer {
     double cover;            // of the sky, where the map says 1
     double extinction_per_m; // where the cloud is densest
     double scale_m;          // tile of the noise
+    double wind_m_s;         // to the east at the equator; the layer turns as a whole
 };
 
 struct cloud_desc {

@@ -80,11 +80,28 @@ double cloud_field_overlap(enum cloud_type type)
     return type == CLOUD_CUMULUS ? 0.6 : 1;
 }
 
+void cloud_field_set_time(struct cloud_field *field, double time_s)
+{
+    for (size_t i = 0; i < field->desc.layer_count; i++) {
+        const double turn = field->desc.layers[i].wind_m_s * time_s / field->ground_radius_m;
+        field->turn_rad[i] = remainder(turn, 2 * SHARED_PI);
+    }
+}
+
+struct vec3 cloud_field_unturned(const struct cloud_field *field, size_t layer,
+                                 struct vec3 position_m)
+{
+    const double c = cos(field->turn_rad[layer]);
+    const double s = sin(field->turn_rad[layer]);
+    return (struct vec3){c * position_m.x + s * position_m.y, c * position_m.y - s * position_m.x,
+                         position_m.z};
+}
+
 double cloud_field_cover(const struct cloud_field *field, size_t layer, struct vec3 position_m)
 {
     double map = 1;
     if (field->has_map) {
-        const struct vec3 up = vec3_normalize(position_m);
+        const struct vec3 up = vec3_normalize(cloud_field_unturned(field, layer, position_m));
         map =
             raster_grid_sample(&field->map, asin(fmax(-1, fmin(1, up.z))), atan2(up.y, up.x)).value;
     }
@@ -102,9 +119,10 @@ static double find_gathered(const struct cloud_field *field, size_t layer, struc
                             double level)
 {
     const double scale_m = field->desc.layers[layer].scale_m;
-    const struct vec3 field_place = vec3_scale(position_m, 1 / (scale_m * CLOUD_FIELD_TILES));
+    const struct vec3 unturned_m = cloud_field_unturned(field, layer, position_m);
+    const struct vec3 field_place = vec3_scale(unturned_m, 1 / (scale_m * CLOUD_FIELD_TILES));
     const struct vec3 wide_place =
-        vec3_scale(cloud_field_wide_place(position_m), 1 / (scale_m * CLOUD_WIDE_TILES));
+        vec3_scale(cloud_field_wide_place(unturned_m), 1 / (scale_m * CLOUD_WIDE_TILES));
     const double narrow[3] = {field_place.x, field_place.y, field_place.z};
     const double wide[3] = {wide_place.x, wide_place.y, wide_place.z};
     const double narrow_level = fmax(0, level - log(CLOUD_FIELD_TILES) / log(2));
@@ -126,7 +144,8 @@ double cloud_field_extinction(const struct cloud_field *field, size_t layer, str
     }
     const double weight = cloud_field_detail(l->type);
     const double finer_level = level + log(CLOUD_DETAIL_TILES) / log(2);
-    const double at[3] = {position_m.x, position_m.y, position_m.z};
+    const struct vec3 unturned = cloud_field_unturned(field, layer, position_m);
+    const double at[3] = {unturned.x, unturned.y, unturned.z};
     double place[3];
     double finer_place[3];
     for (int k = 0; k < 3; k++) {

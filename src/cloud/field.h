@@ -14,6 +14,7 @@ struct cloud_field {
     const trl_context *ctx;
     struct cloud_desc desc; // but for the path
     double ground_radius_m;
+    double turn_rad[CLOUD_MAX_LAYERS]; // how far east the wind has turned a layer
     struct cloud_volume volume;
     bool has_map;
     struct raster_grid map; // of cover, in [0, 1]
@@ -23,6 +24,12 @@ struct cloud_field {
 TRL_MUST_USE trl_result cloud_field_init(const trl_context *ctx, const struct cloud_desc *desc,
                                          double ground_radius_m, struct cloud_field *out);
 void cloud_field_finish(struct cloud_field *field);
+
+// Layers stand where the wind has them then. Zero after init.
+void cloud_field_set_time(struct cloud_field *field, double time_s);
+// A place as the layer had it at the beginning.
+struct vec3 cloud_field_unturned(const struct cloud_field *field, size_t layer,
+                                 struct vec3 position_m);
 
 double cloud_field_highest_m(const struct cloud_field *field); // the uppermost top
 
@@ -34,8 +41,8 @@ double cloud_field_cover(const struct cloud_field *field, size_t layer, struct v
 double cloud_field_extinction(const struct cloud_field *field, size_t layer, struct vec3 position_m,
                               double level);
 
-// Where the widest noise is looked at for a place: along other axes, so that its tiles do not line up
-// with the others.
+// Where the widest noise is looked at for a place: along other axes, so that its tiles do not line
+// up with the others.
 struct vec3 cloud_field_wide_place(struct vec3 position_m);
 
 // Weight of the finer noise and the place of the greatest width, by type.

@@ -202,6 +202,7 @@ void cloud_march_set_field(const struct cloud_march *m, const struct camera *cam
     float finer[CLOUD_MAX_LAYERS][4] = {{0}};
     float gathered[CLOUD_MAX_LAYERS][4] = {{0}};
     float wide[CLOUD_MAX_LAYERS][4] = {{0}};
+    float turn[CLOUD_MAX_LAYERS][4] = {{0}};
     float spread[CLOUD_LEVELS];
     for (size_t i = 0; i < field->desc.layer_count; i++) {
         const struct cloud_layer *l = &field->desc.layers[i];
@@ -213,11 +214,13 @@ void cloud_march_set_field(const struct cloud_march *m, const struct camera *cam
         grain[i][1] = (float)l->extinction_per_m;
         grain[i][2] = (float)cloud_field_detail(l->type);
         grain[i][3] = (float)cloud_field_overlap(l->type);
-        set_anchor(anchor[i], camera->position_m, l->scale_m);
-        set_anchor(finer[i], camera->position_m, l->scale_m / CLOUD_DETAIL_TILES);
-        set_anchor(gathered[i], camera->position_m, l->scale_m * CLOUD_FIELD_TILES);
-        set_anchor(wide[i], cloud_field_wide_place(camera->position_m),
-                   l->scale_m * CLOUD_WIDE_TILES);
+        turn[i][0] = (float)cos(field->turn_rad[i]);
+        turn[i][1] = (float)sin(field->turn_rad[i]);
+        const struct vec3 eye_m = cloud_field_unturned(field, i, camera->position_m);
+        set_anchor(anchor[i], eye_m, l->scale_m);
+        set_anchor(finer[i], eye_m, l->scale_m / CLOUD_DETAIL_TILES);
+        set_anchor(gathered[i], eye_m, l->scale_m * CLOUD_FIELD_TILES);
+        set_anchor(wide[i], cloud_field_wide_place(eye_m), l->scale_m * CLOUD_WIDE_TILES);
     }
     for (int level = 0; level < CLOUD_LEVELS; level++) {
         spread[level] = (float)field->volume.spread[level];
@@ -231,6 +234,7 @@ void cloud_march_set_field(const struct cloud_march *m, const struct camera *cam
     gpu_program_set_vec4s(program, "u_cloud_detail_anchor", finer[0], CLOUD_MAX_LAYERS);
     gpu_program_set_vec4s(program, "u_cloud_field_anchor", gathered[0], CLOUD_MAX_LAYERS);
     gpu_program_set_vec4s(program, "u_cloud_wide_anchor", wide[0], CLOUD_MAX_LAYERS);
+    gpu_program_set_vec4s(program, "u_cloud_turn", turn[0], CLOUD_MAX_LAYERS);
     gpu_program_set_floats(program, "u_cloud_spread", spread, CLOUD_LEVELS);
     gpu_program_set_vec4(program, "u_cloud_volume", volume);
     gpu_program_set_texture(program, "u_cloud_noise", &m->noise);

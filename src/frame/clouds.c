@@ -57,9 +57,11 @@ bool clouds_are_drawn(const struct clouds *clouds, const struct sky *sky)
     return clouds->field && sky->model->get_air;
 }
 
-void clouds_announce(struct clouds *clouds, const struct sky *sky, struct sky_view *view)
+void clouds_announce(struct clouds *clouds, const struct sky *sky, double time_s,
+                     struct sky_view *view)
 {
     if (clouds_are_drawn(clouds, sky)) {
+        cloud_field_set_time(clouds->field, time_s);
         view->cloud_shade = &clouds->march.shades;
         view->cloud_top_m = cloud_field_highest_m(clouds->field);
     } else if (clouds->scene->clouds.layer_count > 0 && !clouds->is_told) {

@@ -28,7 +28,8 @@ void clouds_finish(struct clouds *clouds);
 bool clouds_are_drawn(const struct clouds *clouds, const struct sky *sky);
 
 // Before the model prepares: what the view has of clouds.
-void clouds_announce(struct clouds *clouds, const struct sky *sky, struct sky_view *view);
+void clouds_announce(struct clouds *clouds, const struct sky *sky, double time_s,
+                     struct sky_view *view);
 // Before the sky is drawn.
 TRL_MUST_USE trl_result clouds_shade(struct clouds *clouds, const struct sky *sky,
                                      const struct sky_view *view);

@@ -294,7 +294,7 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
                             // Only the star's shadow is marched through the air.
                             .air = moon.is_main ? TRL_AIR_TABLE : frame->air,
                             .target = &frame->radiance_target};
-    clouds_announce(&frame->clouds, sky, &view);
+    clouds_announce(&frame->clouds, sky, shown->time_s, &view);
     if (result == TRL_OK) {
         frame_clock_part(&frame->clock, "sky maps");
         result = sky_prepare(sky, &view);

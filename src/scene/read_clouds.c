@@ -4,9 +4,9 @@
 
 // What a layer is when its type is all that is known.
 static const struct cloud_layer DEFAULTS[] = {
-    [CLOUD_CUMULUS] = {CLOUD_CUMULUS, 900, 2600, 0.4, 0.04, 8000},
-    [CLOUD_STRATUS] = {CLOUD_STRATUS, 600, 1400, 0.8, 0.03, 16000},
-    [CLOUD_CIRRUS] = {CLOUD_CIRRUS, 8500, 9500, 0.4, 0.0005, 40000}};
+    [CLOUD_CUMULUS] = {CLOUD_CUMULUS, 900, 2600, 0.4, 0.04, 8000, 0},
+    [CLOUD_STRATUS] = {CLOUD_STRATUS, 600, 1400, 0.8, 0.03, 16000, 0},
+    [CLOUD_CIRRUS] = {CLOUD_CIRRUS, 8500, 9500, 0.4, 0.0005, 40000, 0}};
 static const char *const TYPES[] = {"cumulus", "stratus", "cirrus", NULL};
 
 static trl_result read_layer(const struct scene_node *node, double height_m,
@@ -18,12 +18,13 @@ static trl_result read_layer(const struct scene_node *node, double height_m,
         {"top_m", altitudes, &out->top_m},
         {"cover", {.min = 0, .max = 1}, &out->cover},
         {"extinction_per_m", {.min = 0, .max = 1, .is_min_open = true}, &out->extinction_per_m},
-        {"scale_m", {.min = 100, .max = 1e7}, &out->scale_m}};
+        {"scale_m", {.min = 100, .max = 1e7}, &out->scale_m},
+        {"wind_m_s", {.min = -500, .max = 500}, &out->wind_m_s}};
     const struct scene_node type = scene_node_member(node, "type");
     size_t index = CLOUD_CUMULUS;
-    trl_result result =
-        scene_node_check_keys(node, (const char *const[]){"type", "base_m", "top_m", "cover",
-                                                          "extinction_per_m", "scale_m", NULL});
+    trl_result result = scene_node_check_keys(
+        node, (const char *const[]){"type", "base_m", "top_m", "cover", "extinction_per_m",
+                                    "scale_m", "wind_m_s", NULL});
     if (result == TRL_OK && type.value) {
         result = scene_node_word(&type, TYPES, &index);
     }

@@ -192,7 +192,7 @@ static struct cloud_field make_field(struct fixture *f, enum cloud_type type, do
     const struct cloud_desc desc = {
         .layer_count = 1,
         .seed = 1,
-        .layers = {{type, 900, type == CLOUD_CUMULUS ? 2600 : 1700, cover, 0.04, 8000}}};
+        .layers = {{type, 900, type == CLOUD_CUMULUS ? 2600 : 1700, cover, 0.04, 8000, 0}}};
     struct cloud_field field;
     assert_int_equal(cloud_field_init(f->ctx, &desc, RADIUS_M, &field), TRL_OK);
     return field;
@@ -267,6 +267,28 @@ static void there_is_nothing_outside_of_a_layer_and_without_cover(void **state)
     cloud_field_finish(&field);
 }
 
+// What stood over a place stands after a time where the wind has gone meanwhile.
+static void the_wind_carries_a_layer_east(void **state)
+{
+    struct fixture *f = *state;
+    struct cloud_field field = make_field(f, CLOUD_CUMULUS, 0.6);
+    field.desc.layers[0].wind_m_s = 30;
+    const double turn = 30 * 7200 / RADIUS_M;
+    for (int i = 0; i < 200; i++) {
+        const double longitude = 0.01 * i;
+        const double r = RADIUS_M + 1300;
+        const struct vec3 before = {r * 0.8 * cos(longitude), r * 0.8 * sin(longitude), r * 0.6};
+        const struct vec3 after = {r * 0.8 * cos(longitude + turn), r * 0.8 * sin(longitude + turn),
+                                   r * 0.6};
+        cloud_field_set_time(&field, 0);
+        const double wanted = cloud_field_extinction(&field, 0, before, 0);
+        cloud_field_set_time(&field, 7200);
+        // Places are exact to a nanometre, over which the extinction hardly changes.
+        assert_true(fabs(cloud_field_extinction(&field, 0, after, 0) - wanted) < 1e-9);
+    }
+    cloud_field_finish(&field);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -279,6 +301,7 @@ int main(void)
         cmocka_unit_test(a_box_is_as_dense_as_its_values_in_the_mean),
         cmocka_unit_test(layers_cover_what_they_are_asked_to_from_near_and_far),
         cmocka_unit_test(there_is_nothing_outside_of_a_layer_and_without_cover),
+        cmocka_unit_test(the_wind_carries_a_layer_east),
         cmocka_unit_test(another_seed_makes_other_clouds),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -56,10 +56,11 @@ static void the_gpu_s_field_is_the_cpu_s(void **state)
 {
     struct fixture *f = *state;
     const struct cloud_desc desc = {
-        .layer_count = 1, .seed = 5, .layers = {{CLOUD_CUMULUS, 900, 2600, 0.5, 0.04, 8000}}};
+        .layer_count = 1, .seed = 5, .layers = {{CLOUD_CUMULUS, 900, 2600, 0.5, 0.04, 8000, 20}}};
     struct cloud_field field;
     struct cloud_march march;
     assert_int_equal(cloud_field_init(f->ctx, &desc, RADIUS_M, &field), TRL_OK);
+    cloud_field_set_time(&field, 1e5);
     assert_int_equal(cloud_march_init(f->gpu, &field, &march), TRL_OK);
     struct drawn d = make_drawn(f);
     const struct camera camera = {
