@@ -5,6 +5,7 @@
 #ifndef SKY_GROUND_GLSL
 #define SKY_GROUND_GLSL
 
+#include "shared/cloud.glsl"
 #include "shared/sky_map.glsl"
 #include "sky/fragment.glsl"
 
@@ -42,8 +43,19 @@ float cloud_shade(float distance_m)
     }
     return sum / weights;
 }
+
+// Of that, what comes straight from the star.
+float cloud_direct(float shade)
+{
+    return exp((1.0 - 1.0 / shade) * (1.0 / CLOUD_DIFFUSE_DEPTH)) / shade;
+}
 #else
 float cloud_shade(float distance_m)
+{
+    return 1.0;
+}
+
+float cloud_direct(float shade)
 {
     return 1.0;
 }
@@ -53,7 +65,8 @@ struct Ground {
     float distance_m;
     float altitude_m;
     vec3 normal;
-    float star_visible; // share of the star's disc that terrain leaves
+    float star_visible; // share of the star's disc that terrain leaves, and of its light clouds
+    float star_direct;  // of that, what is not spread by clouds
 #ifdef SURFACE
     vec3 albedo;      // linear sRGB
     vec3 region;      // the same, mean around
@@ -79,7 +92,9 @@ Ground find_ground(out Ray ray)
     ground.distance_m = distance_m;
     ground.altitude_m = position.w;
     ground.normal = normal.xyz;
-    ground.star_visible = normal.w * cloud_shade(distance_m);
+    float shade = cloud_shade(distance_m);
+    ground.star_visible = normal.w * shade;
+    ground.star_direct = cloud_direct(shade);
     ground.albedo = albedo.rgb * albedo.rgb;
     vec4 region = texelFetch(u_region, ivec2(gl_FragCoord.xy), 0);
     ground.region = region.rgb * region.rgb;
@@ -101,6 +116,7 @@ Ground find_ground(out Ray ray)
     ground.altitude_m = 0.0;
     ground.normal = normalize(u_eye_up * u_eye.x + ray.direction * ray.ground_m);
     ground.star_visible = cloud_shade(ray.ground_m);
+    ground.star_direct = cloud_direct(ground.star_visible);
     return ground;
 }
 #endif

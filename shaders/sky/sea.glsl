@@ -69,7 +69,7 @@ Sea find_sea(Ray ray, Ground ground)
     float light_mu = max(dot(sea.normal, light), 0.0);
     float glint =
         sea_glint(dot(facet, sea.normal), dot(facet, light), sea.view_mu, light_mu, mss, u_sea.y);
-    sea.glint = light_mu > 0.0 ? glint : 0.0;
+    sea.glint = light_mu > 0.0 ? glint * mix(1.0, ground.star_direct, u_shadowed) : 0.0;
     vec4 surface = surface_at(sea.view_mu, sea.level);
     sea.seen = surface.x;
     sea.mirror_mu = surface.y;

@@ -236,6 +236,11 @@ static struct shades find_shades(const struct spectral *sky, const struct sky_vi
 }
 
 // What shadows need more than the tables.
+static unsigned find_sea_shades(const struct shades *shades)
+{
+    return (shades->has_eclipse ? SEA_ECLIPSED : 0u) | (shades->has_clouds ? SEA_CLOUDED : 0u);
+}
+
 static trl_result prepare_shades(struct spectral *sky, const struct sky_view *view)
 {
     const struct shades shades = find_shades(sky, view);
@@ -255,6 +260,7 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
     const double sun_mu = vec3_dot(vec3_normalize(camera->position_m), camera->sun_direction);
     const double highest_m = fmax(view->highest_m, view->cloud_top_m);
     const struct spectral_eye eye = {radius_m, sun_mu, highest_m};
+    const struct shades shades = find_shades(sky, view);
     trl_result result = adopt_solved(sky);
     if (result == TRL_OK) {
         result = prepare_shades(sky, view);
@@ -267,11 +273,10 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
         result = spectral_maps_update(&sky->maps, &eye);
     }
     if (result == TRL_OK) {
-        result =
-            spectral_sea_prepare(&sky->sea, &sky->maps, view, find_shades(sky, view).has_eclipse);
+        result = spectral_sea_prepare(&sky->sea, &sky->maps, view, find_sea_shades(&shades));
     }
     if (result == TRL_OK && view->moon.is_there) {
-        result = spectral_sea_prepare(&sky->sea, &sky->maps, view, false);
+        result = spectral_sea_prepare(&sky->sea, &sky->maps, view, 0);
     }
     return result == TRL_OK ? moonlight_prepare(&sky->moonlight, &sky->maps, view) : result;
 }
@@ -320,7 +325,7 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
     if (shades.has_eclipse) {
         sky_eclipse_set(&sky->pixels, &sky->eclipse, view->camera, program);
     }
-    if (shades.has_clouds && kind == SKY_KIND_GROUND) {
+    if (shades.has_clouds && (kind == SKY_KIND_GROUND || kind == SKY_KIND_SEA)) {
         gpu_program_set_texture(program, "u_cloud_shade", view->cloud_shade);
     }
     return sky_pixels_draw(&sky->pixels, program, kind, view);
@@ -378,7 +383,7 @@ static trl_result spectral_draw(void *self, const struct sky_view *view)
         result = draw_kind(sky, ground, SKY_KIND_GROUND, view);
     }
     if (result == TRL_OK && sea_water_is_seen(&sky->sea.water, view)) {
-        struct gpu_program *sea = &sky->sea.programs[shades.has_eclipse];
+        struct gpu_program *sea = &sky->sea.programs[find_sea_shades(&shades)];
         spectral_sea_set(&sky->sea, view, sea);
         result = draw_kind(sky, sea, SKY_KIND_SEA, view);
     }

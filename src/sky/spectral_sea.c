@@ -14,7 +14,7 @@ void spectral_sea_init(const struct sky_desc *desc, struct spectral_sea *out)
 
 void spectral_sea_drop(struct spectral_sea *sea)
 {
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < SEA_PROGRAMS; i++) {
         gpu_program_finish(&sea->programs[i]);
         sea->has_program[i] = false;
     }
@@ -46,32 +46,35 @@ static trl_result make_mirror(struct spectral_sea *sea, const struct atmosphere 
 }
 
 static trl_result make_program(struct spectral_sea *sea, const struct atmosphere *a,
-                               bool has_facets, bool has_eclipse)
+                               bool has_facets, unsigned shades)
 {
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", a->peaked.count);
     // What is added leaves the picture's alpha, as moonlight does.
-    const char *defines[5] = {peaked, "SURFACE", "MOON"};
+    const char *defines[6] = {peaked, "SURFACE", "MOON"};
     size_t count = 3;
     if (has_facets) {
         defines[count++] = "FACETS";
     }
-    if (has_eclipse) {
+    if (shades & SEA_ECLIPSED) {
         defines[count++] = "ECLIPSE";
+    }
+    if (shades & SEA_CLOUDED) {
+        defines[count++] = "CLOUDS";
     }
     const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
                                           .fragment = "sky/spectral/sea.frag",
                                           .defines = defines,
                                           .define_count = count};
-    struct gpu_program *program = &sea->programs[has_eclipse];
+    struct gpu_program *program = &sea->programs[shades];
     gpu_program_finish(program); // what an attempt that failed has left
     const trl_result result = gpu_program_init(sea->gpu, &desc, program);
-    sea->has_program[has_eclipse] = result == TRL_OK;
+    sea->has_program[shades] = result == TRL_OK;
     return result;
 }
 
 trl_result spectral_sea_prepare(struct spectral_sea *sea, const struct spectral_maps *maps,
-                                const struct sky_view *view, bool has_eclipse)
+                                const struct sky_view *view, unsigned shades)
 {
     if (!sea_water_is_seen(&sea->water, view)) {
         return TRL_OK;
@@ -80,8 +83,8 @@ trl_result spectral_sea_prepare(struct spectral_sea *sea, const struct spectral_
     if (result == TRL_OK && !sea->has_mirror) {
         result = make_mirror(sea, maps->atmosphere);
     }
-    return result == TRL_OK && !sea->has_program[has_eclipse]
-               ? make_program(sea, maps->atmosphere, view->surface.facets, has_eclipse)
+    return result == TRL_OK && !sea->has_program[shades]
+               ? make_program(sea, maps->atmosphere, view->surface.facets, shades)
                : result;
 }
 

@@ -8,12 +8,15 @@
 #include "sky/sea_water.h"
 #include "sky/spectral_maps.h"
 
+// Programs are told apart by what shades the star's light.
+enum { SEA_ECLIPSED = 1, SEA_CLOUDED = 2, SEA_PROGRAMS = 4 };
+
 struct spectral_sea {
     struct gpu *gpu;
     struct sea_water water;
-    struct gpu_texture mirror;      // 3D RGBA32F  azimuth x sun x view: sea_mirror_make
-    struct gpu_program programs[2]; // with an eclipse: the second
-    bool has_mirror, has_program[2];
+    struct gpu_texture mirror; // 3D RGBA32F  azimuth x sun x view: sea_mirror_make
+    struct gpu_program programs[SEA_PROGRAMS];
+    bool has_mirror, has_program[SEA_PROGRAMS];
 };
 
 void spectral_sea_init(const struct sky_desc *desc, struct spectral_sea *out);
@@ -24,7 +27,7 @@ void spectral_sea_drop(struct spectral_sea *sea);
 // Makes what the view needs and is not there yet.
 TRL_MUST_USE trl_result spectral_sea_prepare(struct spectral_sea *sea,
                                              const struct spectral_maps *maps,
-                                             const struct sky_view *view, bool has_eclipse);
+                                             const struct sky_view *view, unsigned shades);
 
 // The uniforms of sea.frag that are its own.
 void spectral_sea_set(const struct spectral_sea *sea, const struct sky_view *view,

@@ -7,6 +7,7 @@
 // validate: PEAKED_COUNT 3; SURFACE; MOON
 // validate: PEAKED_COUNT 1; SURFACE; MOON; FACETS
 // validate: PEAKED_COUNT 1; SURFACE; MOON; ECLIPSE
+// validate: PEAKED_COUNT 1; SURFACE; MOON; ECLIPSE; CLOUDS
 
 #include "sky/sea.glsl"
 #include "sky/spectral/air.glsl"
