@@ -29,7 +29,8 @@ uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, o
 
 layout(location = 0) out vec4 out_clouds;
 
-const int SLICES = 8; // at most, of a layer along a part of the ray
+const int SLICES = 24; // at most, of a layer along a part of the ray
+const float GROWTH = 0.2;
 const int STEPS = 12; // at most, in a slice
 const int LEAST_STEPS = 4;
 const int COVER_STEPS = 6;        // between looks at the fields of clouds
@@ -138,19 +139,15 @@ void main()
         }
         CloudLayer layer = cloud_layer(part.layer);
         float texel = cloud_texel(layer);
-        // Steps grow with the distance; so many slices as there are enough steps for.
-        float roots = pow(part.from, 1.0 / 3.0);
-        float root_length = pow(part.to, 1.0 / 3.0) - roots;
-        float finest = max(texel, 4.0 * part.from * pixel_rad);
-        float slices =
-            clamp((part.to - part.from) / (float(2 * LEAST_STEPS) * finest), 1.0, float(SLICES));
         float near = part.from;
         for (int slice = 1; slice <= SLICES; slice++) {
             if (near >= part.to || left < OPAQUE) {
                 break;
             }
-            float root = roots + root_length * min(float(slice) / slices, 1.0);
-            float far = float(slice) >= slices ? part.to : root * root * root;
+            // Slices, and steps, grow with the distance, and not with how far the ray goes on: else
+            // they would change where rays graze a layer, which shows as a line.
+            float far = min(near + max(float(STEPS) * texel, GROWTH * near), part.to);
+            far = slice < SLICES ? far : part.to;
             vec3 middle = ray.direction * (0.5 * (near + far));
             float width = 0.5 * (near + far) * pixel_rad;
             float weather = cloud_cover(layer, middle, width);
