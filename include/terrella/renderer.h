@@ -103,7 +103,7 @@ typedef struct trl_renderer_desc {
     trl_mesher mesher;      ///< default TRL_MESHER_QUADTREE
     trl_projective_desc projective; ///< of TRL_MESHER_PROJECTIVE; default 320 x 320, by relief
     double mesh_error_px; ///< of TRL_MESHER_QUADTREE: the error of the mesh that may be seen, in
-                          ///< pixels, [TRL_MESH_ERROR_MIN_PX, TRL_MESH_ERROR_MAX_PX]; default 1.5
+                          ///< pixels, [TRL_MESH_ERROR_MIN_PX, TRL_MESH_ERROR_MAX_PX]; default 1.25
     const trl_rayleigh_desc *rayleigh; ///< for TRL_SKY_RAYLEIGH; copied; NULL (default): as the
                                        ///< scene asks
     bool measures_time;     ///< each draw waits for the GPU and fills trl_renderer_timings; default

@@ -23,7 +23,7 @@ enum {
     VERTICES = QUADTREE_VERTICES + 2 * BORDER, // of the grid, and the curtain's upper and lower
     MESHES = 4 // of every vertex, every second, every fourth, every eighth
 };
-static const double DEFAULT_ERROR_PX = 1.5;
+static const double DEFAULT_ERROR_PX = 1.25;
 // Neighbours agree at their borders but for the last digit of a float. A curtain, this part of the
 // distance long, fills the gaps that this leaves between pixels. It is drawn at infinite distance,
 // so that nothing of it is seen but there.

@@ -7,7 +7,7 @@
 #include <math.h>
 
 // Enough for what is in view, the squares above it, and as much again of the way there.
-enum { CAPACITY = 1 + TILES_COUNT + 4 * 2000 };
+enum { CAPACITY = 1 + TILES_COUNT + 4 * 4000 };
 // A grid this much finer than the data shows nothing that floats could not lose.
 static const double EXACT_TEXELS = 0.25;
 // The ground leaves what was found of it by less than this times the error that was found.

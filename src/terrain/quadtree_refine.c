@@ -17,7 +17,7 @@ static const double MORPH_OCTAVES = 0.5;
 // Squares in view or nearly, of which about two thirds are drawn. Where more would be needed, the
 // tolerance grows by a power of how many times more: as it falls, their number grows like this on
 // rough ground. The number changes little from frame to frame, and so does the tolerance.
-static const double BUDGET = 500;
+static const double BUDGET = 1650;
 static const double BUDGET_POWER = 1.2;
 // Of the tolerance, when there are more squares than can be.
 static const double RELIEF = 1.25;

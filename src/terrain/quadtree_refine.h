@@ -12,7 +12,7 @@
 #include "terrain/quadtree_node.h"
 
 // In view, or nearly.
-enum { QUADTREE_MAX_LEAVES = 1536 };
+enum { QUADTREE_MAX_LEAVES = 2048 };
 enum { QUADTREE_WEST, QUADTREE_EAST, QUADTREE_SOUTH, QUADTREE_NORTH, QUADTREE_SIDES };
 
 struct quadtree_leaf {
