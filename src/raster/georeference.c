@@ -86,11 +86,12 @@ static trl_result warp_and_place(struct raster *raster)
     if (result == TRL_OK && GDALGetGeoTransform(raster->dataset, t) != CE_None) {
         result = fail_raster(raster, "GDAL does not say where it warped it to");
     }
-    if (result == TRL_OK) {
-        place_geographic(raster, t);
-        result = check_borders(raster);
+    if (result != TRL_OK || (OSRIsProjected(GDALGetSpatialRef(raster->dataset)) &&
+                             raster_recognise_projection(raster, t))) {
+        return result; // a plane about a pole
     }
-    return result;
+    place_geographic(raster, t);
+    return check_borders(raster);
 }
 
 trl_result raster_read_georeference(struct raster *raster)

@@ -7,7 +7,7 @@
 // A raster is equirectangular (columns run east along a parallel, rows run south along a meridian,
 // both in equal steps of degrees) or stereographic about a pole. Of both, borders are those of the
 // outer pixels' outer edges, whatever the file's registration. In any other projection that GDAL
-// knows a file is warped to an equirectangular raster of its own resolution while it is read. A
+// knows a file is warped to one of these two, of its own resolution, while it is read. A
 // file without georeference is taken for the whole globe, left edge at 180 W, when it is exactly
 // twice as wide as high; anything else is an error.
 //

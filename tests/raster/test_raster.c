@@ -329,6 +329,61 @@ static void other_projections_are_warped(void **state)
     raster_finish(&raster);
 }
 
+// Zone 60 ends at the antimeridian: 20 columns of 20 km on either side of it are 8 degrees wide at
+// 60 N, in one piece, with pixels as small as the file's.
+static void warped_across_the_antimeridian_stays_in_one_piece(void **state)
+{
+    struct recipe r = GLOBE;
+    r.width = r.height = 40;
+    r.epsg = 32660;
+    r.transform[0] = 667000 - 20 * 20000; // 180 E at 60 N
+    r.transform[1] = 20000;
+    r.transform[3] = 6.654e6 + 20 * 20000;
+    r.transform[5] = -20000;
+    struct raster raster;
+    open_made(*state, &r, &raster);
+    assert_non_null(raster.source);
+    assert_false(raster.is_whole_circle);
+    assert_true(raster.west_deg > 170 && raster.east_deg > 185 && raster.east_deg < 192);
+    assert_true(raster.pixel_width_deg < 0.4);
+    assert_true(fabs(value_in(&raster, 60, 180) - value_at(&r, 0, 20, 20)) < 110);
+    struct raster again;
+    assert_int_equal(raster_open_again(&raster, &again), TRL_OK);
+    raster_finish(&again);
+    raster_finish(&raster);
+}
+
+// Where meridians meet it becomes a map about the pole; one around the globe closes.
+static void warped_rasters_have_no_hole_at_a_pole_and_no_seam(void **state)
+{
+    struct recipe r = GLOBE;
+    r.width = r.height = 20;
+    r.epsg = 3571; // equal areas about the north pole
+    r.transform[0] = -2e6;
+    r.transform[1] = 2e5;
+    r.transform[3] = 2e6;
+    r.transform[5] = -2e5;
+    struct raster raster;
+    open_made(*state, &r, &raster);
+    assert_non_null(raster.source);
+    assert_true(raster.plane.pole == 1);
+    struct raster_window middle = {raster.width / 2, raster.height / 2, 1, 1, 1, 1};
+    float value;
+    assert_int_equal(raster_read_float(&raster, &middle, 0, &value), TRL_OK);
+    assert_true(fabs((double)value - value_at(&r, 0, 10, 10)) < 120);
+    raster_finish(&raster);
+    r.epsg = 3857; // Mercator: 20 037 508 m are 180 degrees
+    r.transform[0] = -20037508;
+    r.transform[1] = 2003750.8;
+    r.transform[3] = 20037508;
+    r.transform[5] = -2003750.8;
+    open_made(*state, &r, &raster);
+    assert_true(raster.is_whole_circle && raster.west_deg == -180);
+    assert_true(fabs(value_in(&raster, 0.1, -179.9) - value_at(&r, 0, 0, 9)) < 3);
+    assert_true(fabs(value_in(&raster, 0.1, 179.9) - value_at(&r, 0, 19, 9)) < 3);
+    raster_finish(&raster);
+}
+
 static void files_that_are_no_rasters_are_refused(void **state)
 {
     struct fixture *f = *state;
@@ -737,6 +792,8 @@ int main(void)
         TEST(metres_of_an_equirectangular_map_are_degrees),
         TEST(polar_maps_are_known),
         TEST(other_projections_are_warped),
+        TEST(warped_across_the_antimeridian_stays_in_one_piece),
+        TEST(warped_rasters_have_no_hole_at_a_pole_and_no_seam),
         TEST(files_that_are_no_rasters_are_refused),
         TEST(nothing_but_local_files_is_opened),
         TEST(complex_pixels_are_refused),
