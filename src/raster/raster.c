@@ -4,6 +4,7 @@
 
 #include "raster/gdal.h"
 #include "raster/georeference.h"
+#include "raster/palette.h"
 #include "raster/remote.h"
 
 #include <cpl_conv.h>
@@ -90,6 +91,10 @@ static trl_result open_dataset(struct raster *raster, bool is_threaded)
     remote_begin(raster->is_remote);
     raster->dataset = is_threaded ? open_threaded(raster) : open_with(raster, NULL);
     remote_end(raster->is_remote);
+    if (raster->dataset && palette_is_there(raster->dataset)) {
+        raster->dataset = palette_expand(raster->dataset);
+        raster->has_palette = true;
+    }
     gdal_catch_end(&catcher);
     if (!raster->dataset && raster->is_remote) {
         return fail_file(raster, TRL_ERROR_IO,
@@ -128,9 +133,14 @@ trl_result raster_read_size_and_type(struct raster *raster)
     raster->type = type == GDT_Byte    ? RASTER_UINT8
                    : type == GDT_Int16 ? RASTER_INT16
                                        : RASTER_FLOAT;
-    // An alpha band that warping adds (source is set) only says where the file ends.
+    // An alpha band that warping (source is set) or a palette adds only says where nothing is.
     if (!raster->source) {
-        raster->has_alpha = type == GDT_Byte && (bands == 2 || bands == 4);
+        raster->has_alpha = !raster->has_palette && type == GDT_Byte && (bands == 2 || bands == 4);
+    }
+    const int flags = GDALGetMaskFlags(band);
+    raster->has_mask = (flags & GMF_PER_DATASET) && !(flags & (GMF_ALPHA | GMF_NODATA));
+    if (raster->has_mask && raster->type == RASTER_INT16) {
+        raster->type = RASTER_FLOAT; // with a number for what the mask leaves out
     }
     int has_nodata = 0;
     raster->nodata = GDALGetRasterNoDataValue(band, &has_nodata);
@@ -270,6 +280,7 @@ struct destination {
     void *pixels;
     GDALDataType type;
     int pixel_bytes;
+    bool is_mask; // of the mask in place of the band
 };
 
 // Which pixels of which band of the file a window is: an overview's, or a fraction of the file's.
@@ -319,7 +330,10 @@ static trl_result read_band(const struct raster *raster, const struct raster_win
     remote_begin(raster->is_remote);
     // Uncompressed GeoTIFFs are read to where they shall be, not through a cache of blocks.
     CPLSetThreadLocalConfigOption("GTIFF_DIRECT_IO", "YES");
-    const struct origin from = find_origin(raster, w, band);
+    struct origin from = find_origin(raster, w, band);
+    if (to->is_mask) {
+        from.band = GDALGetMaskBand(from.band);
+    }
     const CPLErr error = read_origin(&from, w, to);
     CPLSetThreadLocalConfigOption("GTIFF_DIRECT_IO", NULL);
     remote_end(raster->is_remote);
@@ -332,11 +346,32 @@ static trl_result read_band(const struct raster *raster, const struct raster_win
     return result;
 }
 
+// NaN where the mask says that there is nothing.
+static trl_result apply_mask(const struct raster *raster, const struct raster_window *window,
+                             float *out)
+{
+    const size_t count = (size_t)window->out_width * window->out_height;
+    uint8_t *mask = mem_alloc(raster->ctx, count, 1);
+    if (!mask) {
+        return TRL_ERROR_MEMORY;
+    }
+    const struct destination to = {mask, GDT_Byte, 1, true};
+    const trl_result result = read_band(raster, window, 0, &to);
+    for (size_t i = 0; i < count && result == TRL_OK; i++) {
+        out[i] = mask[i] < 128 ? NAN : out[i];
+    }
+    mem_free(raster->ctx, mask);
+    return result;
+}
+
 trl_result raster_read_float(const struct raster *raster, const struct raster_window *window,
                              uint32_t band, float *out)
 {
-    const struct destination to = {out, GDT_Float32, sizeof *out};
+    const struct destination to = {out, GDT_Float32, sizeof *out, false};
     const trl_result result = read_band(raster, window, band, &to);
+    if (result == TRL_OK && raster->has_mask) {
+        return apply_mask(raster, window, out);
+    }
     if (result != TRL_OK || !raster->has_nodata) {
         return result;
     }
@@ -354,7 +389,8 @@ static trl_result check_uint8(const struct raster *raster)
 {
     return raster->type == RASTER_UINT8
                ? TRL_OK
-               : fail_file(raster, TRL_ERROR_INVALID, "its pixels are not of 8 bits");
+               : fail_file(raster, TRL_ERROR_INVALID,
+                           "its pixels are not of 8 bits (gdal_translate -ot Byte -scale)");
 }
 
 // Alpha of a picture that has none: 0 where a pixel has no data (every colour band is nodata).
@@ -373,13 +409,16 @@ trl_result raster_read_rgba8(const struct raster *raster, const struct raster_wi
 {
     trl_result result = check_uint8(raster);
     const bool is_grey = raster->band_count < 3;
-    const bool has_alpha = raster->band_count == 2 || raster->band_count == 4;
+    const bool is_masked = raster->has_mask;
+    const bool has_alpha = raster->band_count == 2 || raster->band_count == 4 || is_masked;
     for (uint32_t channel = 0; channel < 4 && result == TRL_OK; channel++) {
         if (channel == 3 && !has_alpha) {
             break;
         }
-        const uint32_t band = channel == 3 ? raster->band_count - 1 : is_grey ? 0 : channel;
-        const struct destination to = {out + channel, GDT_Byte, 4};
+        const bool is_mask = channel == 3 && is_masked;
+        const uint32_t last = is_masked ? 0 : raster->band_count - 1;
+        const uint32_t band = channel == 3 ? last : is_grey ? 0 : channel;
+        const struct destination to = {out + channel, GDT_Byte, 4, is_mask};
         result = read_band(raster, window, band, &to);
     }
     if (result == TRL_OK && !has_alpha) {
@@ -391,7 +430,7 @@ trl_result raster_read_rgba8(const struct raster *raster, const struct raster_wi
 trl_result raster_read_uint8(const struct raster *raster, const struct raster_window *window,
                              uint32_t band, uint8_t *out)
 {
-    const struct destination to = {out, GDT_Byte, 1};
+    const struct destination to = {out, GDT_Byte, 1, false};
     const trl_result result = check_uint8(raster);
     return result == TRL_OK ? read_band(raster, window, band, &to) : result;
 }
@@ -399,6 +438,6 @@ trl_result raster_read_uint8(const struct raster *raster, const struct raster_wi
 trl_result raster_read_int16(const struct raster *raster, const struct raster_window *window,
                              uint32_t band, int16_t *out)
 {
-    const struct destination to = {out, GDT_Int16, sizeof *out};
+    const struct destination to = {out, GDT_Int16, sizeof *out, false};
     return read_band(raster, window, band, &to);
 }

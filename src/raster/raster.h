@@ -48,6 +48,8 @@ struct raster {
     uint32_t file_width, file_height; // more than these where it is reduced
     uint32_t band_count;
     enum raster_type type;     // of the first band's file type
+    bool has_palette;          // numbers of colours, read as those colours
+    bool has_mask;             // the file says beside its bands where it has data
     bool has_alpha;            // the last band of 8 bits, of the file's own, says what is covered
     struct raster_plane plane; // of a stereographic raster, else zeroed
     // Of an equirectangular one, else 0.

@@ -549,6 +549,74 @@ static void colours_come_as_rgba(void **state)
 
 // Every file cut short at any length must give an error when opened or read, never a crash, and
 // never pixels that are not in it.
+// Pixels 0 to 3 as red, green, blue, and a colour that is no data.
+static void numbers_of_colours_come_as_colours(void **state)
+{
+    struct fixture *f = *state;
+    char path[128];
+    snprintf(path, sizeof path, "%s/palette.tif", f->folder);
+    const GDALDatasetH made =
+        GDALCreate(GDALGetDriverByName("GTiff"), path, 4, 2, 1, GDT_Byte, NULL);
+    const GDALRasterBandH band = GDALGetRasterBand(made, 1);
+    const GDALColorTableH table = GDALCreateColorTable(GPI_RGB);
+    for (int i = 0; i < 4; i++) {
+        const GDALColorEntry entry = {i == 0 ? 200 : 9, i == 1 ? 150 : 9, i == 2 ? 100 : 9, 255};
+        GDALSetColorEntry(table, i, &entry);
+    }
+    assert_int_equal(GDALSetRasterColorTable(band, table), CE_None);
+    GDALDestroyColorTable(table);
+    GDALSetRasterNoDataValue(band, 3);
+    uint8_t numbers[8] = {0, 1, 2, 3, 3, 2, 1, 0};
+    assert_int_equal(GDALRasterIO(band, GF_Write, 0, 0, 4, 2, numbers, 4, 2, GDT_Byte, 0, 0),
+                     CE_None);
+    GDALClose(made);
+    struct raster raster;
+    assert_int_equal(raster_open(f->ctx, path, &raster), TRL_OK);
+    assert_false(raster.has_alpha); // holes are not the file's own shape of borders
+    const struct raster_window row = {0, 0, 4, 1, 4, 1};
+    uint8_t rgba[16];
+    assert_int_equal(raster_read_rgba8(&raster, &row, rgba), TRL_OK);
+    const uint8_t expected[12] = {200, 9, 9, 255, 9, 150, 9, 255, 9, 9, 100, 255};
+    assert_memory_equal(rgba, expected, sizeof expected);
+    assert_int_equal(rgba[15], 0);
+    raster_finish(&raster);
+}
+
+// Column 1 of 4 is masked in the file, not by a value.
+static void masks_of_files_leave_pixels_out(void **state)
+{
+    struct recipe r = GLOBE;
+    for (int i = 0; i < 2; i++) {
+        r.type = i == 0 ? GDT_Int16 : GDT_Byte;
+        r.bands = i == 0 ? 1 : 3;
+        const char *path = make_file(*state, &r);
+        const GDALDatasetH made = GDALOpen(path, GA_Update);
+        assert_int_equal(GDALCreateDatasetMaskBand(made, GMF_PER_DATASET), CE_None);
+        uint8_t mask[36 * 18];
+        for (int k = 0; k < 36 * 18; k++) {
+            mask[k] = k % 4 == 1 ? 0 : 255;
+        }
+        assert_int_equal(GDALRasterIO(GDALGetMaskBand(GDALGetRasterBand(made, 1)), GF_Write, 0, 0,
+                                      36, 18, mask, 36, 18, GDT_Byte, 0, 0),
+                         CE_None);
+        GDALClose(made);
+        struct raster raster;
+        assert_int_equal(raster_open(((struct fixture *)*state)->ctx, path, &raster), TRL_OK);
+        const struct raster_window two = {0, 5, 2, 1, 2, 1};
+        float heights[2];
+        uint8_t rgba[8];
+        if (i == 0) {
+            assert_int_equal(raster_read_float(&raster, &two, 0, heights), TRL_OK);
+            assert_true((double)heights[0] == value_at(&r, 0, 0, 5) && isnan(heights[1]));
+        } else {
+            assert_int_equal(raster_read_rgba8(&raster, &two, rgba), TRL_OK);
+            assert_true(rgba[3] == 255 && rgba[7] == 0 && rgba[1] == value_at(&r, 1, 0, 5));
+        }
+        assert_true(raster.type == (i == 0 ? RASTER_FLOAT : RASTER_UINT8));
+        raster_finish(&raster);
+    }
+}
+
 static void check_truncated(struct fixture *f, const char *data, size_t size,
                             const struct recipe *r)
 {
@@ -803,6 +871,8 @@ int main(void)
         TEST(half_size_averages),
         TEST(missing_data_become_nan),
         TEST(colours_come_as_rgba),
+        TEST(numbers_of_colours_come_as_colours),
+        TEST(masks_of_files_leave_pixels_out),
         TEST(truncated_files_are_errors),
         TEST(damaged_files_do_not_crash),
         TEST(samples_are_bilinear_between_centres),
