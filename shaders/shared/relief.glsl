@@ -144,4 +144,37 @@ SHARED_FN Relief relief_cut(Relief r, NoiseValue v, Number size)
     return r;
 }
 
+// Heights know no more of a place than its direction, so their octaves are drawn out down a cliff, by
+// 1 / cos(slope). From 35 to 55 degrees on rock has octaves of its own, of the place in space.
+SHARED_FN Number relief_rock(Number slope)
+{
+    return relief_smooth(0.7, 1.4, slope);
+}
+
+// The longest of them, as log2 of m, and how large those of `size` m are: broken rock at least.
+#define RELIEF_ROCK_LOG2 4.0
+SHARED_FN Number relief_rock_size(Number size, Number log2_wave)
+{
+    return shared_max(size, 0.04 * exp2(log2_wave));
+}
+
+// What they make of a normal: `n` is their gradient, per m, times their sizes.
+SHARED_STRUCT(RockNormal)
+{
+    Number x, y, z;
+};
+SHARED_FN RockNormal relief_rock_normal(RockNormal normal, NoiseValue n)
+{
+    Number along = normal.x * n.x + normal.y * n.y + normal.z * n.z;
+    RockNormal r;
+    r.x = normal.x * (1.0 + along) - n.x;
+    r.y = normal.y * (1.0 + along) - n.y;
+    r.z = normal.z * (1.0 + along) - n.z;
+    Number size = sqrt(r.x * r.x + r.y * r.y + r.z * r.z);
+    r.x /= size;
+    r.y /= size;
+    r.z /= size;
+    return r;
+}
+
 #endif // SHARED_RELIEF_GLSL

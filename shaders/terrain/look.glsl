@@ -17,6 +17,8 @@ struct Look {
 struct LookPlace {
     vec3 at;
     float quad_footprint, altitude;
+    vec3 ray;         // to it from the camera, unit, local axes
+    float log2_pixel; // of a pixel's width there, m
 };
 
 #ifdef HAS_NOISE
@@ -42,6 +44,8 @@ float look_sea(float height, float slope2, float footprint)
 Look find_look(Tangent t, LookPlace p)
 {
     NoiseBase base = ground_base(t, p.quad_footprint, p.altitude);
+    rock.ray = p.ray;
+    rock.log2_pixel = p.log2_pixel;
     Relief r = noise_compose(base, p.at * u_anchor.w, t.up);
     vec3 slope = terrain_slope(vec4(r.x, r.y, r.z, base.view.texel), t).xyz;
     slope -= t.up * dot(slope, t.up);
@@ -59,6 +63,7 @@ Look find_look(Tangent t, LookPlace p)
 #endif
     look.water = max(look.water, sea);
 #endif
+    r.tone += (1.0 - look.water) * (rock.sum.value - 0.5 * rock.part * r.tone);
 #ifdef HAS_BIOMES
     BiomePlace place =
         biome_place(r.height - r.passing, steep, u_anchor.z + t.ground.geo.y, base.climate);
@@ -81,6 +86,11 @@ Look find_look(Tangent t, LookPlace p)
     look.root = look_weathered(look.root, land * r.tone, land * steep);
 #endif
     look.normal = normalize(t.up - (1.0 - look.water) * slope);
+    RockNormal smooth_normal = RockNormal(look.normal.x, look.normal.y, look.normal.z);
+    float dry = 1.0 - look.water;
+    RockNormal rough = relief_rock_normal(
+        smooth_normal, NoiseValue(0.0, dry * rock.sum.x, dry * rock.sum.y, dry * rock.sum.z));
+    look.normal = vec3(rough.x, rough.y, rough.z);
     return look;
 }
 #else

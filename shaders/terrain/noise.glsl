@@ -18,9 +18,10 @@ uniform vec4 u_noise_place[24];
 uniform ivec4 u_noise_base[24];
 uniform vec4 u_noise_size[24];
 uniform vec4 u_noise_lattice[9]; // lattice axes, local, three for each third octave
-uniform ivec4 u_noise_ends;      // octaves of noise, of gullies after them, of noise after those
-uniform vec4 u_noise_form; // contrast, strength of gullies, altitude of full roughness, sea level
-uniform vec4 u_noise_more; // roughness on level ground; log2 of the map's texel in m; floor
+uniform ivec4 u_noise_ends; // octaves of noise, of gullies after them, of noise after those; the
+                            // first that rock has
+uniform vec4 u_noise_form;  // contrast, strength of gullies, altitude of full roughness, sea level
+uniform vec4 u_noise_more;  // roughness on level ground; log2 of the map's texel in m; floor
 
 struct NoiseGround {
     vec4 map;    // height, amplitude, ridged, climate
@@ -161,16 +162,70 @@ Relief noise_hide(Relief r, int i, float size, float before, NoiseView view)
     return r;
 }
 
+#ifdef HAS_ROCK
+// What rock is seen from, and what its octaves sum up to: gradient times size, and a tone.
+struct Rock {
+    vec3 ray;         // unit
+    float log2_pixel; // of a pixel's width there, m
+    float part;
+    NoiseValue sum;
+};
+
+Rock rock;
+
+void rock_begin(float slope, vec3 normal)
+{
+    rock.part = relief_rock(slope);
+    rock.sum = NoiseValue(0.0, 0.0, 0.0, 0.0);
+    // A cliff at the height of the eye is seen from the front.
+    rock.log2_pixel -= 0.5 * log2(max(abs(dot(rock.ray, normal)), 0.02));
+}
+
+void rock_add(int i, NoiseValue n, NoiseView view)
+{
+    float wave = u_noise_size[i].x;
+    float seen = rock.part * relief_seen(wave, rock.log2_pixel);
+    float size =
+        seen * relief_rock_size(noise_size(i, view), wave) * relief_lacking(wave, view.texel);
+    rock.sum.value += seen * relief_tone(wave) * n.value;
+    rock.sum.x += size * n.x;
+    rock.sum.y += size * n.y;
+    rock.sum.z += size * n.z;
+}
+#endif
+
 // The relief that is made on top of `r`. `up` is unit.
 Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
 {
+#ifdef HAS_ROCK
+    const int parts = 3; // in the same loop: another would take as long again to compile
+#else
+    const int parts = 2;
+#endif
     int i = 0;
-    for (int part = 0; part < 2; part++) {
+    int end = 0;
+    for (int part = 0; part < parts; part++) {
         vec3 left = vec3(r.x, r.y, r.z);
         left -= up * dot(left, up);
         r.cutting = relief_cutting(dot(left, left));
-        for (; !noise_is_over(i, part == 0 ? u_noise_ends.x : u_noise_ends.z, view); i++) {
+        int last = part == 0 ? u_noise_ends.x : u_noise_ends.z;
+#ifdef HAS_ROCK
+        if (part == 2) {
+            rock_begin(length(left), normalize(up - left));
+            at += r.height * up;
+            view.footprint = rock.log2_pixel;
+            i = u_noise_ends.w;
+            last = rock.part > 0.0 ? last : 0;
+        }
+#endif
+        for (; !noise_is_over(i, last, view); i++) {
             NoiseValue n = noise_local(noise_simplex(noise_place(i, noise_turn(i, at))), i);
+#ifdef HAS_ROCK
+            if (part == 2) {
+                rock_add(i, n, view);
+                continue;
+            }
+#endif
             float size = noise_size(i, view);
             float seen = relief_seen(u_noise_size[i].x, view.footprint);
             size *= part == 0 ? 1.0 : mix(u_noise_more.x, 1.0, r.cutting);
@@ -179,6 +234,7 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
             r.tone += size > 0.0 ? seen * relief_tone(u_noise_size[i].x) * n.value : 0.0;
             r = noise_hide(r, i, size, before, view);
         }
+        end = part == 2 ? end : i;
         r.fall_x = r.x;
         r.fall_y = r.y;
         r.fall_z = r.z;
@@ -197,8 +253,8 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
             r = noise_hide(r, i, size, before, view);
         }
     }
-    float below = pow2(view.amplitude) * (i < u_noise_ends.z ? 1.0 : 0.0);
-    int next = min(i, u_noise_ends.z - 1);
+    float below = pow2(view.amplitude) * (end < u_noise_ends.z ? 1.0 : 0.0);
+    int next = min(end, u_noise_ends.z - 1);
     r.unseen += RELIEF_SLOPE2 * below * u_noise_size[next].z;
     r.unseen_height2 += RELIEF_HEIGHT2 * below * u_noise_size[next].w;
     return r;

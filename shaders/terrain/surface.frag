@@ -15,6 +15,7 @@
 #ifndef NORMAL_COUNT
 #define NORMAL_COUNT 0
 #endif
+#define HAS_ROCK
 #include "terrain/layers.glsl"
 #include "terrain/shadow.glsl"
 
@@ -218,7 +219,8 @@ void main()
     float distance_m = length(local);
     // A pixel's width on the ground; seen at a slant it is longer, and the middle of both is taken.
     float slant = max(abs(dot(local, up)), 0.02 * distance_m) / max(distance_m, 1e-3);
-    float log2_footprint = log2(max(distance_m * u_view.y, 1e-3)) - 0.5 * log2(slant);
+    float log2_pixel = log2(max(distance_m * u_view.y, 1e-3));
+    float log2_footprint = log2_pixel - 0.5 * log2(slant);
     // Levels fetched by hand must be one for 2 x 2 pixels: llvmpipe takes the first's for all.
     vec3 first = texelFetch(u_position, ivec2(gl_FragCoord.xy) & ~1, 0).xyz;
     float quad_footprint = log2(max(length(first) * u_view.y, 1e-3)) + 1.0;
@@ -228,7 +230,8 @@ void main()
     // 1 - cosine without cancellation.
     vec3 at = vec3(up.xy, -dot(up.xy, up.xy) / (1.0 + up.z));
     Tangent tangent = tangent_at(at, geo, log2_footprint);
-    Look look = find_look(tangent, LookPlace(at, quad_footprint, p.w));
+    Look look = find_look(
+        tangent, LookPlace(at, quad_footprint, p.w, local / max(distance_m, 1e-3), log2_pixel));
 
     float is_ground = p.w > -1e8 ? 1.0 : 0.0;
     o_albedo_water = is_ground * vec4(look.root, look.water);

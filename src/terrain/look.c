@@ -112,7 +112,9 @@ static struct vec3 find_made_normal(const struct surface *surface, struct vec3 u
     }
     const struct vec3 gradient = {r.x, r.y, r.z};
     const struct vec3 slope = vec3_sub(gradient, vec3_scale(up, vec3_dot(gradient, up)));
-    return vec3_normalize(vec3_sub(up, slope));
+    const struct noise_stand stand = {r.height, vec3_length(slope),
+                                      vec3_normalize(vec3_sub(up, slope))};
+    return noise_rock_normal(&surface->noise, &place, &stand);
 }
 
 bool surface_biomes(const struct surface *surface, struct vec3 direction, double rgb[3])

@@ -407,6 +407,38 @@ Relief noise_relief_at(const struct terrain_noise *noise, const struct noise_pla
     return r;
 }
 
+static int first_of_rock(const struct terrain_noise *noise)
+{
+    int i = 0;
+    while (i < noise->ends[2] && noise->log2_wave[i] > RELIEF_ROCK_LOG2) {
+        i++;
+    }
+    return i;
+}
+
+struct vec3 noise_rock_normal(const struct terrain_noise *noise, const struct noise_place *place,
+                              const struct noise_stand *stand)
+{
+    const double part = relief_rock(stand->slope);
+    const struct vec3 at = vec3_scale(place->up, noise->radius_m + stand->height_m);
+    const double amplitude = place->ground.amplitude_m *
+                             relief_fullness(place->ground.height_m, noise->desc.full_height_m);
+    NoiseValue rock = {0, 0, 0, 0};
+    for (int i = first_of_rock(noise); i < noise->ends[2] && part > 0; i++) {
+        const NoiseValue n = turn_back(noise, i, noise_simplex(find_place(noise, i, at)));
+        const double wave = noise->log2_wave[i];
+        const double lacking = relief_lacking(wave, place->log2_texel);
+        const double size = part * relief_seen(wave, place->log2_footprint) * lacking *
+                            relief_rock_size(amplitude * noise->size[i] * lacking, wave);
+        rock.x += size * n.x;
+        rock.y += size * n.y;
+        rock.z += size * n.z;
+    }
+    const RockNormal normal = {stand->normal.x, stand->normal.y, stand->normal.z};
+    const RockNormal r = relief_rock_normal(normal, rock);
+    return (struct vec3){r.x, r.y, r.z};
+}
+
 struct noise_reach noise_find_reach(const struct terrain_noise *noise, double amplitude_m,
                                     double ridged)
 {
@@ -557,7 +589,7 @@ void noise_bind(const struct terrain_noise *noise, const struct anchor *anchor,
         rows[i][2] = (float)local.z;
     }
     const struct noise_desc *desc = &noise->desc;
-    const int32_t ends[4] = {noise->ends[0], noise->ends[1], noise->ends[2], 0};
+    const int32_t ends[4] = {noise->ends[0], noise->ends[1], noise->ends[2], first_of_rock(noise)};
     const float form[4] = {(float)CONTRAST, (float)GULLIES, (float)desc->full_height_m,
                            desc->has_sea ? 0.0f : -1e9f};
     const float more[4] = {(float)desc->level_roughness,

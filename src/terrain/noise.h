@@ -98,6 +98,15 @@ struct noise_place {
 // With the octaves, before water; vectors along planet axes.
 Relief noise_relief_at(const struct terrain_noise *noise, const struct noise_place *place);
 
+// The normal of ground that stands so (altitude with its octaves, slope as a tangent, unit normal),
+// with what is too small for heights where it is steep.
+struct noise_stand {
+    double height_m, slope;
+    struct vec3 normal;
+};
+struct vec3 noise_rock_normal(const struct terrain_noise *noise, const struct noise_place *place,
+                              const struct noise_stand *stand);
+
 // Altitudes that octaves can add to ground of an amplitude and fold: down (negative) and up.
 struct noise_reach {
     double down_m, up_m;
