@@ -144,7 +144,7 @@ SHARED_FN Relief relief_cut(Relief r, NoiseValue v, Number size)
     return r;
 }
 
-// Heights know no more of a place than its direction, so their octaves are drawn out down a cliff, by
+// Heights know no more of a place than its direction: their octaves are drawn out down a cliff, by
 // 1 / cos(slope). From 35 to 55 degrees on rock has octaves of its own, of the place in space.
 SHARED_FN Number relief_rock(Number slope)
 {
