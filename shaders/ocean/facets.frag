@@ -3,14 +3,16 @@
 // What a pixel of open water shows of the waves: the mean normal of those that it resolves (planet
 // axes, unit), and the mean square slope of all that it does not, along and across together.
 #include "ocean/waves.glsl"
+#include "shared/sea.glsl"
 
 uniform sampler2D u_position; // relative to the camera, m
 uniform sampler2D u_albedo;   // a: part that is open water
+uniform sampler2D u_lights;   // a: code of the water's depth
 uniform float u_pixel_rad;
 
 layout(location = 0) out vec4 o_facet;
 
-vec4 facet(vec3 position)
+vec4 facet(vec3 position, float depth)
 {
     GerstnerPlace p = waves_place(position);
     vec3 up = vec3(p.vx, p.vy, p.vz);
@@ -20,7 +22,8 @@ vec4 facet(vec3 position)
     // A pixel on the ground: its own width across, longer by 1 / mu along the view.
     vec2 flat_way = way.xy / max(length(way.xy), 1.0e-6);
     vec2 along = flat_way * (side / mu);
-    GerstnerSum sum = waves_sum(p, along, vec2(-flat_way.y, flat_way.x) * side, side);
+    vec2 across = vec2(-flat_way.y, flat_way.x) * side;
+    GerstnerSum sum = waves_sum(p, WavesWindow(along, across, side, depth));
     GerstnerNormal n = gerstner_normal(sum);
     GerstnerNormal turned = gerstner_to_anchor(p, n.x, n.y, n.z);
     // A row times a matrix: the transpose turns local axes back into the planet's.
@@ -35,6 +38,8 @@ void main()
     o_facet = vec4(0.0);
     // No branch: a software rasteriser skips nothing of those, but loops that no pixel enters.
     for (int i = 0; i < count; i++) {
-        o_facet = facet(texelFetch(u_position, pixel, 0).xyz);
+        float code = texelFetch(u_lights, pixel, 0).a;
+        float depth = code > 0.0 ? sea_code_depth(code) : 1.0e6;
+        o_facet = facet(texelFetch(u_position, pixel, 0).xyz, depth);
     }
 }

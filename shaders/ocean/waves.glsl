@@ -28,8 +28,13 @@ GerstnerWave waves_fetch(int group, int lane)
 }
 
 // All waves at a place, under a window whose sides along the ground are `x` and `y` (m, axes of the
-// anchor); `least` the shorter one. What is not shown is in lost_square.
-GerstnerSum waves_sum(GerstnerPlace p, vec2 x, vec2 y, float least)
+// anchor); `least` the shorter one; in water of a depth. What is not shown is in lost_square.
+struct WavesWindow {
+    vec2 x, y;
+    float least, depth;
+};
+
+GerstnerSum waves_sum(GerstnerPlace p, WavesWindow window)
 {
     GerstnerSum sum = gerstner_level();
     float near = 1.0 - smoothstep(0.5 * WAVES_REACH, WAVES_REACH, length(vec2(p.vx, p.vy)));
@@ -37,8 +42,9 @@ GerstnerSum waves_sum(GerstnerPlace p, vec2 x, vec2 y, float least)
     for (int g = 0; g < u_wave_groups; g++) {
         for (int lane = 0; lane < 4; lane++) {
             GerstnerWave w = waves_fetch(g, lane);
-            is_seen = is_seen &&
-                      near * gerstner_weight(w.wavenumber * least, 0.0) > GERSTNER_LEAST_WEIGHT;
+            w.amplitude *= gerstner_shoal(w.wavenumber, window.depth);
+            is_seen = is_seen && near * gerstner_weight(w.wavenumber * window.least, 0.0) >
+                                     GERSTNER_LEAST_WEIGHT;
             if (!is_seen) {
                 float steep = w.amplitude * w.wavenumber;
                 sum.lost_square += 0.5 * steep * steep;
@@ -47,7 +53,8 @@ GerstnerSum waves_sum(GerstnerPlace p, vec2 x, vec2 y, float least)
             GerstnerRipple r =
                 gerstner_ripple(w, p, u_wave_range.x, gerstner_small_angle(gerstner_turn(w, p)));
             vec2 d = vec2(r.dx, r.dy) * w.wavenumber;
-            sum = gerstner_add(sum, w, r, near * gerstner_weight(dot(d, x), dot(d, y)));
+            sum =
+                gerstner_add(sum, w, r, near * gerstner_weight(dot(d, window.x), dot(d, window.y)));
         }
     }
     sum.lost_square += u_wave_range.z;

@@ -351,7 +351,7 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
     if (result == TRL_OK && ground->has_waves && extras->has_facets) {
         frame_clock_part(clock, "waves");
         const struct facets_inputs inputs = {camera, extras->time_s, &ground->position,
-                                             &ground->albedo};
+                                             &ground->albedo, &ground->lights};
         result = facets_draw(&ground->facets, &inputs);
     }
     if (result == TRL_OK && extras->has_sky_view) {

@@ -67,6 +67,7 @@ trl_result facets_draw(struct facets *facets, const struct facets_inputs *in)
     wave_texture_bind(&facets->waves, fmax(height_m, 0) * pixel_rad, program);
     gpu_program_set_texture(program, "u_position", in->position);
     gpu_program_set_texture(program, "u_albedo", in->albedo);
+    gpu_program_set_texture(program, "u_lights", in->lights);
     gpu_program_set_float(program, "u_pixel_rad", (float)pixel_rad);
     const struct gpu_pass pass = {.target = &facets->target};
     gpu_pass_begin(facets->gpu, &pass);

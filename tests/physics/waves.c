@@ -370,6 +370,27 @@ static void windows_keep_the_mean_square_slope(void **state)
     waves_finish(&waves);
 }
 
+static void shallow_water_leaves_what_does_not_break(void **state)
+{
+    (void)state;
+    const double k = 0.1;
+    // Long waves keep the variance k d / 2, short ones all; both parts meet in value and slope.
+    assert_true(gerstner_shoal(k, 0) == 0);
+    assert_true(fabs(pow(gerstner_shoal(k, 2), 2) - 0.5 * k * 2) < 1e-12);
+    assert_true(gerstner_shoal(k, 40) == 1 && gerstner_shoal(k, 1e6) == 1);
+    const double below = gerstner_shoal(k, 10 - 1e-4), at = gerstner_shoal(k, 10 + 1e-12);
+    const double above = gerstner_shoal(k, 10 + 1e-4);
+    assert_true(fabs(at * at - 0.5) < 1e-9);
+    assert_true(fabs((above - at) / (at - below) - 1) < 1e-4);
+    // With q the wavenumber in this depth, times it, k d = q tanh q, and the factor that the
+    // parabolas stand for is tanh^2 q / (1 + 2 q / sinh 2 q): they are off by 0.023 at most.
+    for (double q = 0.05; q < 5; q += 0.05) {
+        const double t = tanh(q), part = gerstner_shoal(1, q * t);
+        const double exact = t * t / (1 + 2 * q / sinh(2 * q));
+        assert_true(fabs(part * part - exact) < 0.025);
+    }
+}
+
 static void seed_tells_the_sea_and_calm_has_none(void **state)
 {
     struct ocean_desc ocean = describe(8, OCEAN_JONSWAP, 30);
@@ -401,6 +422,7 @@ int main(void)
         cmocka_unit_test(phases_are_exact_after_ten_days),
         cmocka_unit_test(an_eye_that_moves_sees_the_same_waves),
         cmocka_unit_test(windows_keep_the_mean_square_slope),
+        cmocka_unit_test(shallow_water_leaves_what_does_not_break),
         cmocka_unit_test(seed_tells_the_sea_and_calm_has_none),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
