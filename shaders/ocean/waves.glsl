@@ -27,13 +27,14 @@ GerstnerWave waves_fetch(int group, int lane)
     return GerstnerWave(v[0], v[1], v[2], v[3], v[4], v[5], v[6]);
 }
 
-// All waves at a place, under a window whose sides along the ground are `x` and `y` (m, axes of the
-// anchor); `least` the shorter one; in water of a depth. What is not shown is in lost_square.
+// Where waves are looked at: a window whose sides along the ground are `x` and `y` (m, axes of the
+// anchor), `least` the shorter one; and how deep the water is, m.
 struct WavesWindow {
     vec2 x, y;
     float least, depth;
 };
 
+// All waves at a place. What is not shown is in lost_square.
 GerstnerSum waves_sum(GerstnerPlace p, WavesWindow window)
 {
     GerstnerSum sum = gerstner_level();

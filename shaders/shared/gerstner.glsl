@@ -163,10 +163,10 @@ SHARED_FN Number gerstner_weight(Angle along_x, Angle along_y)
     return exp(-0.125 * (along_x * along_x + along_y * along_y));
 }
 
-// What water of a depth leaves of an amplitude: the root of the depth factor by which a sea keeps the
-// shape of its saturated spectrum in wavenumbers (Kitaigorodskii et al. 1975, J. Phys. Oceanogr. 5;
-// Bouws et al. 1985, J. Geophys. Res. 90; as a parabola: Thompson and Vincent 1983). What is missing
-// has broken. `wavenumber` is that of deep water, whose product with the depth is w^2 d / g.
+// What water of a depth leaves of an amplitude: the root of the depth factor by which a sea keeps
+// the shape of its saturated spectrum in wavenumbers (Kitaigorodskii et al. 1975, J. Phys.
+// Oceanogr. 5; Bouws et al. 1985, J. Geophys. Res. 90; as parabolas: Thompson and Vincent 1983).
+// What is missing has broken. `wavenumber` is that of deep water: k d = w^2 d / g.
 SHARED_FN Number gerstner_shoal(PerLength wavenumber, Length depth)
 {
     Number h = sqrt(shared_clamp(wavenumber * depth, 0.0, 4.0));
