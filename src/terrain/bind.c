@@ -111,7 +111,8 @@ static void describe_near(const struct terrain_layer *layer, const struct anchor
 static void bind_near(const struct binding *binding, struct gpu_program *program)
 {
     const struct surface_selection *selection = binding->selection;
-    const double ground_m = surface_altitude(binding->surface, binding->anchor->up);
+    // Tiles are not waited for: what is held whole is near enough for the digits.
+    const double ground_m = surface_altitude_of_held(binding->surface, binding->anchor->up);
     float rows[2 * SURFACE_SEEN_LAYERS][4] = {0};
     for (size_t i = 0; i < selection->counts[SURFACE_ELEVATION]; i++) {
         const size_t index = selection->indices[SURFACE_ELEVATION][i];

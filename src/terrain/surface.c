@@ -9,7 +9,9 @@
 #include <math.h>
 
 // Of the layers, over what lies below them.
-static double lay_over(const struct surface *s, double below, double latitude, double longitude)
+typedef double (*sample_fn)(const struct terrain_layer *layer, double x, double y);
+static double lay_over(const struct surface *s, sample_fn sample, double below, double latitude,
+                       double longitude)
 {
     double altitude = below;
     for (size_t i = 0; i < s->counts[SURFACE_ELEVATION]; i++) {
@@ -19,7 +21,7 @@ static double lay_over(const struct surface *s, double below, double latitude, d
         }
         const struct layer_place place = layer_locate(&layer->frame, latitude, longitude);
         if (place.weight > 0) {
-            const double height = layer_sample(layer, place.x, place.y);
+            const double height = sample(layer, place.x, place.y);
             altitude = blend_layers(layer->mode, altitude, height, place.weight);
         }
     }
@@ -40,12 +42,22 @@ bool surface_has_layers(const struct surface *surface)
     return surface_count_layers(surface) > 0 || surface->is_invented;
 }
 
-double surface_altitude_of_data(const struct surface *s, struct vec3 direction)
+static double altitude_of_data(const struct surface *s, sample_fn sample, struct vec3 direction)
 {
     const double below =
         s->is_invented ? noise_ground_at(&s->noise, vec3_normalize(direction)).height_m : 0;
-    return lay_over(s, below, atan2(direction.z, hypot(direction.x, direction.y)),
+    return lay_over(s, sample, below, atan2(direction.z, hypot(direction.x, direction.y)),
                     atan2(direction.y, direction.x));
+}
+
+double surface_altitude_of_data(const struct surface *s, struct vec3 direction)
+{
+    return altitude_of_data(s, layer_sample, direction);
+}
+
+double surface_altitude_of_held(const struct surface *s, struct vec3 direction)
+{
+    return altitude_of_data(s, layer_sample_held, direction);
 }
 
 void surface_find_place(const struct surface *s, struct vec3 direction, struct noise_place *place)
@@ -59,7 +71,8 @@ void surface_find_place(const struct surface *s, struct vec3 direction, struct n
         slope_lay_over(&s->layers[SURFACE_ELEVATION][i], up, s->radius_m, &slope);
     }
     ground.slope = slope.slope;
-    ground.height_m = lay_over(s, s->is_invented ? ground.height_m : 0, latitude, longitude);
+    ground.height_m =
+        lay_over(s, layer_sample, s->is_invented ? ground.height_m : 0, latitude, longitude);
     *place = (struct noise_place){up, ground, slope.log2_texel, NOISE_ALL, NOISE_MAX_OCTAVES};
 }
 

@@ -139,6 +139,8 @@ double surface_altitude(const struct surface *surface, struct vec3 direction);
 
 // The same without noise that goes on below the data, as layers hold it.
 double surface_altitude_of_data(const struct surface *surface, struct vec3 direction);
+// The same, of layers in tiles by the level that is held whole: it reads nothing.
+double surface_altitude_of_held(const struct surface *surface, struct vec3 direction);
 
 // What the octaves of the noise are added to there. Only where there is noise.
 void surface_find_place(const struct surface *surface, struct vec3 direction,

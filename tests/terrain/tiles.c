@@ -7,6 +7,7 @@
 #include "terrain/stream.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -248,6 +249,35 @@ static void check_mesh_of_tiles(const struct fixture *f, const struct files *fil
     surface_finish(&tiled);
 }
 
+// Finding what a mesh is made of must not read the ground finely everywhere: a view over two
+// degrees of the planet shows 28 tiles of all levels, and 75 were read where each square of the
+// mesh asked for the finest.
+static void meshes_read_only_what_they_show(void **state)
+{
+    const struct fixture *f = *state;
+    struct files files;
+    write_files(f, &LARGE_GLOBE, &files);
+    for (int m = 0; trl_mesher_name((trl_mesher)m) != NULL; m++) {
+        if (m == TRL_MESHER_TESSELLATED && !f->gpu->caps.has_tessellation) {
+            continue;
+        }
+        const struct surface_desc desc = describe(&files, TILED);
+        struct surface tiled;
+        struct mesher *mesher;
+        assert_int_equal(surface_init(f->gpu, &desc, &tiled), TRL_OK);
+        assert_int_equal(mesher_create(&tiled, (trl_mesher)m, &mesher), TRL_OK);
+        const struct camera_place place = {10, -60, RADIUS_M, 2000, 90, -60, 40};
+        const struct camera camera = fixture_camera(&place);
+        assert_int_equal(surface_update(&tiled, &camera, pixel_of(&camera)), TRL_OK);
+        (void)middle_distance(f, mesher, &camera);
+        const uint64_t loaded = tile_cache_stats(tiled.stream->cache).loaded;
+        printf("%s: %u tiles\n", trl_mesher_name((trl_mesher)m), (unsigned)loaded);
+        assert_true(loaded > 0 && loaded <= 40);
+        mesher_destroy(&mesher);
+        surface_finish(&tiled);
+    }
+}
+
 // Meshes are made of what tiles there are, and anew of what comes.
 static void meshes_follow_what_comes(void **state)
 {
@@ -379,6 +409,7 @@ int main(void)
         TEST(snow_is_that_of_whole_rasters),
         TEST(bounds_hold_what_tiles_have),
         TEST(views_are_those_of_whole_rasters),
+        TEST(meshes_read_only_what_they_show),
         TEST(meshes_follow_what_comes),
         TEST(a_surface_that_does_not_wait_comes_to_the_same),
         TEST(tiles_ahead_of_the_camera_are_read),
