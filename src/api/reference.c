@@ -4,6 +4,7 @@
 #include <terrella/reference.h>
 
 #include "api/check.h"
+#include "cloud/traced.h"
 #include "frame/daylight.h"
 #include "frame/develop.h"
 #include "frame/relief.h"
@@ -47,6 +48,7 @@ struct job {
     uint32_t width, height;
     struct reference_sheets sheets;
     struct relief relief;
+    struct cloud_field field; // zeroed without clouds
     struct camera camera;
     struct reference_occluder occluders[CAMERA_MAX_BODIES];
 };
@@ -76,8 +78,10 @@ static trl_result trace(const struct job *job)
 {
     const trl_reference_desc *desc = job->desc;
     const struct reference_surface surface = relief_surface(&job->relief);
+    const struct reference_clouds clouds = cloud_field_traced(&job->field);
     const struct reference_scene scene = {.medium = &desc->scene->medium,
                                           .surface = job->relief.is_bare ? NULL : &surface,
+                                          .clouds = job->field.desc.layer_count ? &clouds : NULL,
                                           .occluder_count = job->camera.body_count,
                                           .occluders = job->occluders};
     const struct reference_picture picture = {.camera = &job->camera,
@@ -90,6 +94,20 @@ static trl_result trace(const struct job *job)
     return reference_picture_trace(job->ctx, &scene, &picture, &job->sheets);
 }
 
+static trl_result make_clouds(struct job *job)
+{
+    const trl_scene *scene = job->desc->scene;
+    if (scene->clouds.layer_count == 0) {
+        return TRL_OK;
+    }
+    const trl_result result =
+        cloud_field_init(job->ctx, &scene->clouds, scene->medium.ground_radius_m, &job->field);
+    if (result == TRL_OK) {
+        cloud_field_set_time(&job->field, job->view->time_s);
+    }
+    return result;
+}
+
 static trl_result render(struct job *job)
 {
     trl_result result = relief_init(job->ctx, job->desc->scene, &job->relief);
@@ -97,8 +115,12 @@ static trl_result render(struct job *job)
         result = place_camera(job);
     }
     if (result == TRL_OK) {
+        result = make_clouds(job);
+    }
+    if (result == TRL_OK) {
         result = trace(job);
     }
+    cloud_field_finish(&job->field);
     relief_finish(&job->relief);
     return result;
 }

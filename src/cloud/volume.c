@@ -137,6 +137,9 @@ struct cloud_noise cloud_volume_sample(const struct cloud_volume *volume, const 
     double part;
     const int low = find_level(level, &part);
     const struct cloud_noise fine = sample_level(volume, place, low);
+    if (part <= 0) {
+        return fine;
+    }
     const struct cloud_noise coarse = sample_level(volume, place, low + 1);
     return (struct cloud_noise){fine.value + (coarse.value - fine.value) * part,
                                 fine.around + (coarse.around - fine.around) * part};

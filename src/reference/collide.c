@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Every ray of a path either collides with the air, hits the ground, or, in dense air, goes on
-// behind what has been looked at. It never leaves: its weight is multiplied with the chance that it
+// behind what has been looked at. A cloud ends the ray at a place that is drawn beforehand, as often
+// as the cloud's light comes from there; what the air before it does is as before solid ground. It never leaves: its weight is multiplied with the chance that it
 // would not have. Where it collides is drawn from a mixture of densities over the pieces of the
 // ray: by what the air scatters (right by day), by that times the sunlight which is there, and by
 // height (right in twilight); within a piece by the optical depth, exactly. The weight is the true
@@ -35,8 +36,8 @@ struct flight {
     struct reference_ray ray;
     lanes4 share; // of each wavelength in the decisions
     double glow_share;
-    bool hits_ground, is_cut; // is_cut: there is more behind the stretches
-    size_t count;             // of stretches
+    bool hits_ground, hits_cloud, is_cut; // is_cut: there is more behind the stretches
+    size_t count;                         // of stretches
     double density[DENSITY_COUNT];
     lanes4 end_transmittance;
     struct reference_look look; // where it hits the ground
@@ -119,7 +120,7 @@ static void weigh_ray(const struct reference_tracer *tracer, const struct refere
     flight->is_cut = flight->is_cut && last->piece.end_m < flight->ray.end_m;
     if (flight->is_cut) {
         flight->ray.end_m = last->piece.end_m;
-        flight->hits_ground = false;
+        flight->hits_ground = flight->hits_cloud = false;
     }
 }
 
@@ -151,8 +152,21 @@ static void look_at_ground(const struct reference_tracer *tracer, const struct r
     }
 }
 
-static struct flight prepare(const struct reference_tracer *tracer,
-                             const struct reference_path *path, struct reference_scratch *scratch)
+static void look_for_cloud(const struct reference_tracer *tracer, struct reference_path *path,
+                           struct flight *flight)
+{
+    const struct reference_clouds_way way = {path->position, path->direction,
+                                             flight->ray.end_m - flight->ray.begin_m};
+    const double met_m = reference_clouds_meet(tracer->world->scene.clouds, &way, &path->random);
+    if (met_m < way.length_m) {
+        flight->ray.end_m = flight->ray.begin_m + met_m;
+        flight->hits_cloud = true;
+        flight->hits_ground = false;
+    }
+}
+
+static struct flight prepare(const struct reference_tracer *tracer, struct reference_path *path,
+                             struct reference_scratch *scratch)
 {
     const struct reference_surface *surface = tracer->world->scene.surface;
     const double mu = vec3_dot(path->position, path->direction) / vec3_length(path->position);
@@ -161,12 +175,16 @@ static struct flight prepare(const struct reference_tracer *tracer,
         .share = reference_shares(path),
         .glow_share = reference_find_glow(path).share};
     flight.hits_ground = flight.ray.hits_bottom;
+    if (tracer->world->scene.clouds) {
+        look_for_cloud(tracer, path, &flight);
+    }
     if (surface) {
         const struct reference_way way = {path->position, path->direction,
                                           flight.ray.end_m - flight.ray.begin_m, 0};
         const double met_m =
             reference_surface_meet(surface, tracer->world->scene.medium->ground_radius_m, &way);
         flight.hits_ground = met_m >= 0;
+        flight.hits_cloud = flight.hits_cloud && met_m < 0;
         flight.ray.end_m = flight.hits_ground ? flight.ray.begin_m + met_m : flight.ray.end_m;
     }
     weigh_ray(tracer, path, scratch, &flight);
@@ -289,7 +307,7 @@ static void collide(const struct reference_tracer *tracer, const struct flight *
                     passed / density;
     path->position =
         vec3_add(path->position, vec3_scale(path->direction, s_m - flight->ray.begin_m));
-    path->is_on_ground = path->is_on_sea = false;
+    path->is_on_ground = path->is_on_sea = path->is_in_cloud = false;
 }
 
 static void hit_ground(const struct reference_tracer *tracer, const struct flight *flight,
@@ -301,6 +319,7 @@ static void hit_ground(const struct reference_tracer *tracer, const struct fligh
     path->position = tracer->world->scene.surface ? vec3_scale(at, 1 + lift)
                                                   : vec3_scale(vec3_normalize(at), ground);
     path->is_on_ground = true;
+    path->is_in_cloud = false;
     path->normal = flight->look.normal;
     path->albedo = flight->albedo;
     path->radiance += path->weight * flight->glow;
@@ -319,6 +338,22 @@ static void move_on(const struct flight *flight, struct reference_path *path)
 {
     path->position = vec3_add(path->position,
                               vec3_scale(path->direction, flight->ray.end_m - flight->ray.begin_m));
+}
+
+static void enter_cloud(const struct reference_tracer *tracer, const struct flight *flight,
+                        struct reference_path *path)
+{
+    move_on(flight, path);
+    path->weight *= tracer->world->scene.clouds->albedo;
+    path->densities = (struct reference_columns){{0}};
+    path->is_on_ground = path->is_on_sea = false;
+    path->is_in_cloud = true;
+}
+
+static double cloud_worth(const struct reference_tracer *tracer, const struct flight *flight)
+{
+    const lanes4 arrived = flight->share * flight->end_transmittance;
+    return flight->hits_cloud ? tracer->world->scene.clouds->albedo * lanes4_sum(&arrived) : 0;
 }
 
 static double ground_worth(const struct flight *flight, int count)
@@ -341,7 +376,8 @@ bool reference_advance(const struct reference_tracer *tracer, struct reference_s
         const double behind = flight.is_cut ? lanes4_sum(&far) : 0;
         const double ground = ground_worth(&flight, tracer->optics.count);
         const double air = flight.density[BY_SCATTERING];
-        const double all = air + ground + behind;
+        const double cloud = cloud_worth(tracer, &flight);
+        const double all = air + ground + cloud + behind;
         if (!(all > 0)) {
             return false;
         }
@@ -354,6 +390,11 @@ bool reference_advance(const struct reference_tracer *tracer, struct reference_s
         if (drawn < ground + air) {
             path->weight *= all / air;
             collide(tracer, &flight, scratch, path);
+            return lanes4_sum(&path->weight) > 0;
+        }
+        if (drawn < ground + air + cloud) {
+            path->weight *= flight.end_transmittance * (all / cloud);
+            enter_cloud(tracer, &flight, path);
             return lanes4_sum(&path->weight) > 0;
         }
         path->weight *= flight.end_transmittance * (all / behind);

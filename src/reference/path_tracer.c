@@ -147,7 +147,8 @@ static trl_result trace_wavelength(struct job *job, double wavelength_nm)
 {
     const struct reference_scene scene = {.medium = job->medium,
                                           .occluder_count = job->desc->occluder_count,
-                                          .occluders = job->desc->occluders};
+                                          .occluders = job->desc->occluders,
+                                          .clouds = job->desc->clouds};
     const struct reference_wavelengths wavelengths = {&wavelength_nm, 1};
     struct reference_world world;
     trl_result result = reference_world_init(job->ctx, &scene, &wavelengths, &world);

@@ -6,6 +6,7 @@
 // time. It judges the deterministic solver and shares nothing with it but the description of the
 // medium. It has no bias but that of its optical depths, whose quadrature is good to about 1e-5.
 
+#include "reference/clouds.h"
 #include "reference/star.h"
 #include "scatter/medium.h"
 #include <terrella/atmosphere.h>
@@ -19,6 +20,7 @@ struct reference_desc {
     size_t occluder_count; // bodies before the star, in the frame of the query: the observer on the
                            // z axis, the star above the x axis
     const struct reference_occluder *occluders;
+    const struct reference_clouds *clouds; // NULL: none
 };
 
 // Radiance in W m^-2 sr^-1 nm^-1 that arrives at the observer (all scattered and reflected light,

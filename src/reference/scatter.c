@@ -113,7 +113,9 @@ static double density_of(const struct reference_tracer *tracer, const struct ref
                          const struct lobes *lobes, struct vec3 direction)
 {
     const double plain =
-        path->is_on_sea
+        path->is_in_cloud ? reference_clouds_phase(tracer->world->scene.clouds,
+                                                   vec3_dot(path->direction, direction))
+        : path->is_on_sea
             ? reference_sea_density(&tracer->world->scene.surface->sea, &path->facets, direction)
         : path->is_on_ground
             ? fmax(0, vec3_dot(path->normal, direction)) / pi
@@ -151,6 +153,8 @@ static struct vec3 draw_direction(const struct reference_tracer *tracer, const s
         cosine = phase_draw_henyey_greenstein(glow_g, &path->random);
     } else if (path->is_on_sea) {
         return reference_sea_draw(&tracer->world->scene.surface->sea, &path->facets, &path->random);
+    } else if (path->is_in_cloud) {
+        cosine = reference_clouds_draw(tracer->world->scene.clouds, &path->random);
     } else if (path->is_on_ground) {
         cosine = sqrt(reference_next(path));
     } else {
@@ -170,6 +174,9 @@ lanes4 reference_ground_value(const struct reference_tracer *tracer,
 lanes4 reference_phase(const struct reference_tracer *tracer, const struct reference_path *path,
                        double cosine)
 {
+    if (path->is_in_cloud) {
+        return lanes4_set(reference_clouds_phase(tracer->world->scene.clouds, cosine));
+    }
     const struct reference_optics *optics = &tracer->optics;
     const lanes4 all = reference_optics_scattering(optics, &path->densities);
     lanes4 value = {0};

@@ -49,7 +49,13 @@ lanes4 reference_transmittance(const struct reference_tracer *tracer, struct ref
     }
     const double least = lanes4_min(&depth, optics->count);
     const lanes4 exponent = fmax(0, least - certain_depth) - depth;
-    return lanes4_exp(&exponent, optics->count);
+    const lanes4 passed = lanes4_exp(&exponent, optics->count);
+    const struct reference_clouds *clouds = tracer->world->scene.clouds;
+    if (!clouds) {
+        return passed;
+    }
+    const struct reference_clouds_way way = {path->position, direction, ray.end_m - ray.begin_m};
+    return passed * reference_clouds_passed(clouds, &way, &path->random);
 }
 
 void reference_add_starlight(const struct reference_tracer *tracer, struct reference_path *path)

@@ -178,6 +178,10 @@ trl_result reference_world_init(const trl_context *ctx, const struct reference_s
             fmin(0, scene->surface->lowest_m) - below_ground * scene->medium->ground_radius_m;
         extent.highest_m = fmax(0, scene->surface->highest_m);
     }
+    if (scene->clouds) {
+        extent.highest_m = fmax(extent.highest_m, scene->clouds->highest_m);
+        world->highest_phase = reference_clouds_phase(scene->clouds, 1);
+    }
     const struct medium *medium = scene->medium;
     trl_result result = reference_air_init(ctx, medium, wavelengths, &extent, &world->air);
     for (size_t i = 0; i < medium->constituent_count && result == TRL_OK; ++i) {

@@ -4,7 +4,7 @@
 #define REFERENCE_TRACER_H
 // One path of light, followed backward from the eye. What the parts of it share; the parts are
 //
-//     collide.c   where the path's next event is: in the air, on the ground
+//     collide.c   where the path's next event is: in the air, in a cloud, on the ground
 //     scatter.c   into which direction it goes on
 //     starlight.c what light of the star an event sends back along the path
 //     tracer.c    the path as a whole
@@ -16,6 +16,7 @@
 // wavelength spectral sampling", whose balance heuristic this is, applied event by event).
 
 #include "reference/air.h"
+#include "reference/clouds.h"
 #include "reference/optics.h"
 #include "reference/phase_sampler.h"
 #include "reference/star.h"
@@ -26,6 +27,7 @@
 struct reference_scene {
     const struct medium *medium;             // outlives the scene
     const struct reference_surface *surface; // NULL: the bare sphere of the medium
+    const struct reference_clouds *clouds;   // NULL: none
     size_t occluder_count;
     const struct reference_occluder *occluders;
 };
@@ -96,6 +98,7 @@ struct reference_path {
     struct reference_facets facets;
     lanes4 albedo;
     struct reference_columns densities; // in the air
+    bool is_in_cloud;                   // the event is a cloud's, not the air's: densities are 0
 };
 
 static inline double reference_next(struct reference_path *path)
@@ -157,7 +160,7 @@ lanes4 reference_transmittance(const struct reference_tracer *tracer, struct ref
 lanes4 reference_ground_value(const struct reference_tracer *tracer,
                               const struct reference_path *path, struct vec3 direction);
 
-// Phase function of the mixture at the path's place, sr^-1.
+// Phase function of the mixture, or of the cloud, at the path's place, sr^-1.
 lanes4 reference_phase(const struct reference_tracer *tracer, const struct reference_path *path,
                        double cosine);
 

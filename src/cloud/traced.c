@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+//
+// The bound of the extinction around a place comes from the volume's second channel, which is the
+// largest noise within CLOUD_BORDER texels of each; between texels that holds for one less.
+#include "cloud/traced.h"
+
+#include "shared/cloud.glsl"
+
+#include <math.h>
+
+// For what values between texels are rounded and the edge is smoothed.
+static const double slack = 1e-3;
+
+// The largest noise within the border of a place, in m of a tile.
+static double most_noise(const struct cloud_field *field, struct vec3 place_m, double tile_m)
+{
+    const double place[3] = {place_m.x / tile_m, place_m.y / tile_m, place_m.z / tile_m};
+    return cloud_volume_sample(&field->volume, place, 0).around;
+}
+
+// The largest cover of one height within reach. Between texels of the map it is bilinear, so that
+// it rises by no more than 1 along each side of a texel; these are narrow near the poles.
+static double most_cover(const struct cloud_field *field, size_t layer, struct vec3 position_m,
+                         double reach_m)
+{
+    const struct cloud_layer *l = &field->desc.layers[layer];
+    double map = 1;
+    if (field->has_map) {
+        const struct vec3 up = vec3_normalize(cloud_field_unturned(field, layer, position_m));
+        const double latitude = asin(fmax(-1, fmin(1, up.z)));
+        const double here = raster_grid_sample(&field->map, latitude, atan2(up.y, up.x)).value;
+        const double reach = reach_m / vec3_length(position_m);
+        const double side = 2 * SHARED_PI / field->map.width * fmax(cos(latitude) - reach, 0);
+        const double lower = SHARED_PI / field->map.height;
+        map = side > 0 ? fmin(1, here + reach / side + reach / lower) : 1;
+    }
+    return cloud_level_cover(l->cover * map, cloud_field_overlap(l->type));
+}
+
+static double layer_most(const struct cloud_field *field, size_t layer, struct vec3 position_m,
+                         double *reach_m)
+{
+    const struct cloud_layer *l = &field->desc.layers[layer];
+    const double altitude_m = vec3_length(position_m) - field->ground_radius_m;
+    const double outside_m = fmax(l->base_m - altitude_m, altitude_m - l->top_m);
+    *reach_m = (CLOUD_BORDER - 1) * l->scale_m / CLOUD_SIDE;
+    if (outside_m > *reach_m) {
+        *reach_m = outside_m;
+        return 0;
+    }
+    const double height = (altitude_m - l->base_m) / (l->top_m - l->base_m);
+    const double rise = *reach_m / (l->top_m - l->base_m);
+    const double peak = cloud_field_peak(l->type);
+    const double signal = cloud_height_signal(fmin(fmax(peak, height - rise), height + rise), peak);
+    const struct vec3 unturned_m = cloud_field_unturned(field, layer, position_m);
+    const double noise = most_noise(field, unturned_m, l->scale_m);
+    const double joint = cloud_joint_noise(noise, 1, cloud_field_detail(l->type));
+    const double cover = cloud_gathered_cover(
+        most_cover(field, layer, position_m, *reach_m),
+        most_noise(field, unturned_m, l->scale_m * CLOUD_FIELD_TILES),
+        most_noise(field, cloud_field_wide_place(unturned_m), l->scale_m * CLOUD_WIDE_TILES));
+    const double x = joint - cloud_threshold(cover, signal) + slack;
+    return l->extinction_per_m * fmin(fmax(x / CLOUD_EDGE, 0), 1) * (1 + slack);
+}
+
+static double most_per_m(const void *user, struct vec3 position_m, double *reach_m)
+{
+    const struct cloud_field *field = user;
+    double most = 0;
+    *reach_m = INFINITY;
+    for (size_t i = 0; i < field->desc.layer_count; i++) {
+        double layer_reach_m;
+        most += layer_most(field, i, position_m, &layer_reach_m);
+        *reach_m = fmin(*reach_m, layer_reach_m);
+    }
+    return most;
+}
+
+static double extinction_per_m(const void *user, struct vec3 position_m)
+{
+    const struct cloud_field *field = user;
+    const double finest_level = -log(CLOUD_DETAIL_TILES) / log(2);
+    double sum = 0;
+    for (size_t i = 0; i < field->desc.layer_count; i++) {
+        sum += cloud_field_extinction(field, i, position_m, finest_level);
+    }
+    return sum;
+}
+
+struct reference_clouds cloud_field_traced(const struct cloud_field *field)
+{
+    return (struct reference_clouds){.user = field,
+                                     .highest_m = cloud_field_highest_m(field),
+                                     .albedo = 1, // of water in visible light, within 1e-5
+                                     .forward_g = CLOUD_FORWARD_G,
+                                     .back_g = CLOUD_BACK_G,
+                                     .back_share = CLOUD_BACK_SHARE,
+                                     .extinction_per_m = extinction_per_m,
+                                     .most_per_m = most_per_m};
+}
