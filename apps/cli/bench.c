@@ -32,6 +32,8 @@ static const struct bench benches[] = {
      bench_run_stream, NULL},
     {"clouds", "clouds over a bare sphere: by cover, from the ground and from space, two sizes",
      bench_run_clouds, NULL},
+    {"cloud-error", "drawn clouds against traced ones: a field at noon, sunset, against the sun",
+     bench_run_cloud_error, NULL},
     {"schafhitzel-table1", "Earth and Mars, outside and inside, with air and without",
      bench_run_schafhitzel_table1, "Schafhitzel, Falk and Ertl 2007, Table 1"},
     {"schafhitzel-table2", "single scattering on spheres: 3D table against integrals at vertices",

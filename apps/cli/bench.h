@@ -21,6 +21,9 @@ struct bench_job {
 // The job's scene, or the one of that name that ships with the program. Errors are reported.
 trl_result bench_load_scene(const struct bench_job *job, const char *file, trl_scene **out);
 
+// The bare sphere with cumulus of that cover.
+trl_result bench_cloudy_scene(const struct bench_job *job, double cover, trl_scene **out);
+
 static inline int bench_runs(const struct bench_job *job, int fallback)
 {
     return job->runs > 0 ? job->runs : fallback;
@@ -39,6 +42,7 @@ trl_result bench_run_tables(const struct bench_job *job);
 trl_result bench_run_sky_frame(const struct bench_job *job);
 trl_result bench_run_start(const struct bench_job *job);
 trl_result bench_run_clouds(const struct bench_job *job);
+trl_result bench_run_cloud_error(const struct bench_job *job);
 trl_result bench_run_stream(const struct bench_job *job);
 trl_result bench_run_elek_precompute(const struct bench_job *job);
 trl_result bench_run_elek_fps(const struct bench_job *job);

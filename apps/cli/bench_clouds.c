@@ -30,8 +30,7 @@ static char *read_text(const char *path, size_t *length)
     return text;
 }
 
-// The bare sphere with cumulus of that cover.
-static trl_result make_scene(const struct bench_job *job, double cover, trl_scene **out)
+trl_result bench_cloudy_scene(const struct bench_job *job, double cover, trl_scene **out)
 {
     *out = NULL;
     char *path = app_find_scene("bare-sphere.json");
@@ -101,7 +100,7 @@ static trl_result measure_cover(const struct bench_job *job, double cover)
 {
     trl_scene *scene = NULL;
     struct cloud_case c = {0};
-    trl_result result = make_scene(job, cover, &scene);
+    trl_result result = bench_cloudy_scene(job, cover, &scene);
     if (result == TRL_OK) {
         trl_renderer_desc desc = bench_renderer_desc(job, scene);
         desc.measures_time = true;

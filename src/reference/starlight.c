@@ -20,6 +20,14 @@ static bool is_in_shadow(const struct reference_tracer *tracer, const struct ref
     return reference_surface_meet(scene->surface, scene->medium->ground_radius_m, &way) >= 0;
 }
 
+static double pass_clouds(const struct reference_tracer *tracer, struct reference_path *path,
+                          const struct reference_ray *ray, struct vec3 direction)
+{
+    const struct reference_clouds *clouds = tracer->world->scene.clouds;
+    const struct reference_clouds_way way = {path->position, direction, ray->end_m - ray->begin_m};
+    return clouds ? reference_clouds_passed(clouds, &way, &path->random) : 1;
+}
+
 lanes4 reference_transmittance(const struct reference_tracer *tracer, struct reference_path *path,
                                struct vec3 direction)
 {
@@ -30,6 +38,10 @@ lanes4 reference_transmittance(const struct reference_tracer *tracer, struct ref
         reference_air_ray(air, reference_path_radius(tracer, path), mu);
     if (reference_star_is_hidden(&path->star, path->position, direction) ||
         is_in_shadow(tracer, path, &ray, direction)) {
+        return lanes4_set(0);
+    }
+    const double clear = pass_clouds(tracer, path, &ray, direction);
+    if (clear <= 0) {
         return lanes4_set(0);
     }
     lanes4 depth = {0};
@@ -49,13 +61,7 @@ lanes4 reference_transmittance(const struct reference_tracer *tracer, struct ref
     }
     const double least = lanes4_min(&depth, optics->count);
     const lanes4 exponent = fmax(0, least - certain_depth) - depth;
-    const lanes4 passed = lanes4_exp(&exponent, optics->count);
-    const struct reference_clouds *clouds = tracer->world->scene.clouds;
-    if (!clouds) {
-        return passed;
-    }
-    const struct reference_clouds_way way = {path->position, direction, ray.end_m - ray.begin_m};
-    return passed * reference_clouds_passed(clouds, &way, &path->random);
+    return clear * lanes4_exp(&exponent, optics->count);
 }
 
 void reference_add_starlight(const struct reference_tracer *tracer, struct reference_path *path)
