@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Every ray of a path either collides with the air, hits the ground, or, in dense air, goes on
-// behind what has been looked at. A cloud ends the ray at a place that is drawn beforehand, as often
-// as the cloud's light comes from there; what the air before it does is as before solid ground. It never leaves: its weight is multiplied with the chance that it
-// would not have. Where it collides is drawn from a mixture of densities over the pieces of the
-// ray: by what the air scatters (right by day), by that times the sunlight which is there, and by
-// height (right in twilight); within a piece by the optical depth, exactly. The weight is the true
-// density over the drawn one, so any mixture gives the same expectation.
+// behind what has been looked at. A cloud ends the ray at a place that is drawn beforehand, as
+// often as its light comes from there; the air before it is then as before solid ground. A path
+// never leaves: its weight is multiplied with the chance that it would not have. Where it collides
+// is drawn from a mixture of densities over the pieces of the ray: by what the air scatters (right
+// by day), by that times the sunlight which is there, and by height (right in twilight); within a
+// piece by the optical depth, exactly. The weight is the true density over the drawn one, so any
+// mixture gives the same expectation.
 #include "reference/tracer.h"
 
 #include <math.h>
