@@ -36,7 +36,7 @@ static bool next_try(struct track *track)
             track->until_m = fmin(track->at_m + reach_m, track->way->length_m);
         }
         const double free_m =
-            track->most_per_m > 0 ? -log(random_next(track->random)) / track->most_per_m : INFINITY;
+            track->most_per_m > 0 ? -log(random_next(track->random)) / track->most_per_m : HUGE_VAL;
         if (track->at_m + free_m < track->until_m) {
             track->at_m += free_m;
             return true;
