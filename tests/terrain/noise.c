@@ -374,7 +374,8 @@ static void test_a_cliff_is_as_rough_upward_as_along(void **state)
     struct surface s;
     assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &s), TRL_OK);
     const double along = find_roughness(&s, 0.4, 0), upward = find_roughness(&s, 0, 0.4 * 0.894);
-    // Each is known to a tenth. Of heights' own octaves the ratio is 0.2, by the stretch of 2.24.
+    // Each is known to a tenth. Heights' own octaves are 2.24 times as long up this slope as along
+    // it, which would make the ratio 1 / 2.24^2 = 0.2.
     assert_true(along > 1e-3);
     assert_true(upward / along > 0.7 && upward / along < 1.4);
     const struct noise_place place = {.up = {1, 0, 0}, .log2_footprint = NOISE_ALL};
