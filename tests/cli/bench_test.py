@@ -102,7 +102,7 @@ class Bench(ProgramTest):
         self.expect_failure(1, ["bench", "michelic-table2", "--scene", self.write_scene()],
                             ["michelic-table2", "--scene"])
 
-    @unittest.skipIf(IS_SLOW, "24 pictures of 1920 x 1080")
+    @unittest.skipIf(IS_SLOW, "16 pictures of 1920 x 1080")
     def test_layers_of_noise_by_grids(self):
         scene = copy.deepcopy(THIN_SCENE)
         # Mostly sky, for the pictures of this bench are large.
@@ -154,6 +154,7 @@ class Bench(ProgramTest):
             self.assertGreater(rows[case, "vertex shader"]["min"], 0.0)
             self.assertGreater(rows[case, "optimized / vertex shader"]["min"], 0.0)
 
+    @unittest.skipIf(IS_SLOW, "many pictures; what it calls is tested with sanitizers by render")
     def test_samples_and_wavelengths_of_the_model_rayleigh(self):
         done = self.expect_success("bench", "santana-samples", "santana-spectrum", "santana-fit", "--json", "--runs", 1)
         samples, spectrum, fit = [json.loads(line) for line in done.stdout.splitlines()]
