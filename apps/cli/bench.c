@@ -10,6 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+// Passes of a frame that are looked through.
+enum { TIMINGS_MAX = 48 };
+
 struct bench {
     const char *name;
     const char *summary;
@@ -165,6 +168,23 @@ trl_renderer_desc bench_renderer_desc(const struct bench_job *job, const trl_sce
     desc.scene = scene;
     desc.mesher = job->mesher < 0 ? desc.mesher : (trl_mesher)job->mesher;
     return desc;
+}
+
+double bench_timing_ms(const trl_timing *timing)
+{
+    return timing->gpu_ms > 0 ? timing->gpu_ms : timing->cpu_ms;
+}
+
+double bench_pass_ms(const trl_renderer *renderer, const char *pass)
+{
+    trl_timing rows[TIMINGS_MAX];
+    const size_t all = trl_renderer_timings(renderer, rows, TIMINGS_MAX);
+    for (size_t i = 0; i < all && i < TIMINGS_MAX; i++) {
+        if (strcmp(rows[i].name, pass) == 0) {
+            return bench_timing_ms(&rows[i]);
+        }
+    }
+    return 0;
 }
 
 static enum exit_status run_bench(struct app *app, const struct bench *bench,

@@ -36,6 +36,11 @@ void bench_show(const struct bench_job *job);
 // A renderer's description with the scene and the job's mesher.
 trl_renderer_desc bench_renderer_desc(const struct bench_job *job, const trl_scene *scene);
 
+// Of a pass of the last frame, on the GPU where there are timer queries.
+double bench_timing_ms(const trl_timing *timing);
+// The same by the pass's name; 0: the frame had none.
+double bench_pass_ms(const trl_renderer *renderer, const char *pass);
+
 trl_result bench_run_solver(const struct bench_job *job);
 trl_result bench_run_terrain_error(const struct bench_job *job);
 trl_result bench_run_tables(const struct bench_job *job);

@@ -4,6 +4,7 @@
 // sun, luminance pixel by pixel.
 #include "bench.h"
 
+#include "difference.h"
 #include "shot.h"
 
 #include <math.h>
@@ -12,8 +13,6 @@
 enum { WIDTH = 32, HEIGHT = 18, PIXELS = WIDTH * HEIGHT, SAMPLES = 8, PATHS_A_RUN = 64 };
 static const double cover = 0.5;
 static const double rad = 0.017453292519943295;
-// Rec. 709, of linear primaries.
-static const double luminance_of[3] = {0.2126, 0.7152, 0.0722};
 
 struct cloud_look {
     const char *name;
@@ -32,12 +31,6 @@ struct cloud_error {
     float *traced, *noise; // PIXELS * 4
 };
 
-static double luminance(const float *rgb)
-{
-    return luminance_of[0] * (double)rgb[0] + luminance_of[1] * (double)rgb[1] +
-           luminance_of[2] * (double)rgb[2];
-}
-
 // Errors of the primaries of a pixel come from the same paths: together at most their sum.
 static trl_result add_errors(const struct cloud_error *e, const char *name, const float *drawn)
 {
@@ -46,12 +39,12 @@ static trl_result add_errors(const struct cloud_error *e, const char *name, cons
     double size = 0;
     double noise = 0;
     for (size_t i = 0; i < PIXELS; i++) {
-        const double truth = luminance(e->traced + 4 * i);
-        const double got = luminance(drawn + 4 * i);
+        const double truth = difference_luminance(e->traced + 4 * i);
+        const double got = difference_luminance(drawn + 4 * i);
         sum += truth / PIXELS;
         sum_drawn += got / PIXELS;
         size += fabs(got - truth) / truth / PIXELS;
-        noise += luminance(e->noise + 4 * i) / truth / PIXELS;
+        noise += difference_luminance(e->noise + 4 * i) / truth / PIXELS;
     }
     noise *= sqrt(2 / 3.14159265358979323846); // mean size of a normal error
     const struct bench_sample rows[] = {

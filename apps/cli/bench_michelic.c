@@ -12,7 +12,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { GRIDS = 3, ROWS = 4, DEFAULT_RUNS = 3, TIMINGS_MAX = 32, PATCH_CELLS = 8 };
+enum { GRIDS = 3, ROWS = 4, DEFAULT_RUNS = 3, PATCH_CELLS = 8 };
 enum { WIDTH = 1920, HEIGHT = 1080 }; // "all images are rendered in full-HD"
 
 static const uint32_t grids[GRIDS] = {50, 100, 200};
@@ -100,24 +100,6 @@ static trl_result load_layers(struct michelic *m, int row, trl_scene **out)
     return result;
 }
 
-// Milliseconds of what makes, draws and shades the ground in the last frame.
-struct ground_ms {
-    double vertices, mesh, surface;
-};
-static struct ground_ms find_ground_ms(const struct michelic *m)
-{
-    trl_timing rows[TIMINGS_MAX];
-    const size_t all = trl_renderer_timings(m->renderer, rows, TIMINGS_MAX);
-    struct ground_ms found = {0};
-    for (size_t i = 0; i < all && i < TIMINGS_MAX; i++) {
-        const double ms = rows[i].gpu_ms > 0 ? rows[i].gpu_ms : rows[i].cpu_ms;
-        found.vertices += strcmp(rows[i].name, "vertices") == 0 ? ms : 0;
-        found.mesh += strcmp(rows[i].name, "mesh") == 0 ? ms : 0;
-        found.surface += strcmp(rows[i].name, "surface") == 0 ? ms : 0;
-    }
-    return found;
-}
-
 static void name_case(char name[BENCH_NAME_MAX], int row, int grid)
 {
     static const char *const words[ROWS] = {"continents", "1 layer", "5 layers", "10 layers"};
@@ -126,12 +108,14 @@ static void name_case(char name[BENCH_NAME_MAX], int row, int grid)
 
 static trl_result add_samples(struct michelic *m, const char *name, double frame_ms)
 {
-    const struct ground_ms ms = find_ground_ms(m);
+    const double vertices_ms = bench_pass_ms(m->renderer, "vertices");
+    const double mesh_ms = bench_pass_ms(m->renderer, "mesh");
+    const double surface_ms = bench_pass_ms(m->renderer, "surface");
     const struct bench_sample samples[] = {
-        {name, "ground", "ms", ms.vertices + ms.mesh + ms.surface},
-        {name, "its vertices", "ms", ms.vertices},
-        {name, "its mesh", "ms", ms.mesh},
-        {name, "its colours and normals", "ms", ms.surface},
+        {name, "ground", "ms", vertices_ms + mesh_ms + surface_ms},
+        {name, "its vertices", "ms", vertices_ms},
+        {name, "its mesh", "ms", mesh_ms},
+        {name, "its colours and normals", "ms", surface_ms},
         {name, "processor time of the frame", "ms", frame_ms}};
     trl_result result = TRL_OK;
     for (size_t i = 0; i < sizeof samples / sizeof *samples && result == TRL_OK; i++) {

@@ -66,7 +66,7 @@ static trl_result add_frame(const struct bench_job *job, const trl_renderer *ren
     double share_ms[SHARES] = {0};
     trl_result result = TRL_OK;
     for (size_t i = 0; i < all && i < TIMINGS_MAX && result == TRL_OK; i++) {
-        const double ms = rows[i].gpu_ms > 0 ? rows[i].gpu_ms : rows[i].cpu_ms;
+        const double ms = bench_timing_ms(&rows[i]);
         char metric[BENCH_NAME_MAX];
         snprintf(metric, sizeof metric, "pass %.32s", rows[i].name);
         share_ms[find_share(rows[i].name)] += ms;
@@ -120,6 +120,7 @@ trl_result bench_run_michelic_frame(const struct bench_job *job)
         result = trl_scene_view(scene, name, &view);
         if (result == TRL_OK) {
             result = draw_view(job, renderer, &view, name);
+            bench_show(job);
         }
     }
     bench_note(job->table, "The paper's numbers are of one view on a GeForce GTX 1060. Here the "

@@ -7,9 +7,8 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
-enum { NUMBERS = 4, SIZES = 2, DEFAULT_RUNS = 3, TIMINGS_MAX = 48, GRID_SIDE = 80 };
+enum { NUMBERS = 4, SIZES = 2, DEFAULT_RUNS = 3, GRID_SIDE = 80 };
 
 static const int numbers[NUMBERS] = {20, 50, 100, 1000};
 static const double paper_ms[NUMBERS] = {0.6, 0.7, 0.9, 4.0};
@@ -28,18 +27,6 @@ static trl_result make_scene(const struct bench_job *job, int number, trl_scene 
                  " \"ocean\": {\"waves\": {\"wind_m_s\": 9, \"count\": %d}}}",
                  number);
     return trl_scene_parse(job->app->ctx, text, (size_t)length, "waves", ".", out);
-}
-
-static double find_waves_ms(const trl_renderer *renderer)
-{
-    trl_timing rows[TIMINGS_MAX];
-    const size_t all = trl_renderer_timings(renderer, rows, TIMINGS_MAX);
-    for (size_t i = 0; i < all && i < TIMINGS_MAX; i++) {
-        if (strcmp(rows[i].name, "waves") == 0) {
-            return rows[i].gpu_ms > 0 ? rows[i].gpu_ms : rows[i].cpu_ms;
-        }
-    }
-    return 0;
 }
 
 // From 20 m, so low that the nearest pixels show all waves.
@@ -68,7 +55,7 @@ static trl_result measure_size(const struct bench_job *job, trl_renderer *render
         trl_renderer_wait(renderer);
         if (i > 0 && result == TRL_OK) { // the first frame compiles
             result = bench_add(job->table, (struct bench_sample){name, metrics[size], "ms",
-                                                                 find_waves_ms(renderer)});
+                                                                 bench_pass_ms(renderer, "waves")});
         }
     }
     if (result == TRL_OK && size == 0) {

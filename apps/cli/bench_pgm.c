@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SIDES = 3, VIEWS = 3, DEFAULT_RUNS = 3, TIMINGS_MAX = 32 };
+enum { SIDES = 3, VIEWS = 3, DEFAULT_RUNS = 3 };
 
 static const uint32_t sides[SIDES] = {512, 768, 1024};
 
@@ -25,19 +25,6 @@ struct pgm {
     double step_ms[SIDES][SIDES];
     int done, all; // cases, for the progress line
 };
-
-// What the mesh's vertices take on the GPU.
-static double find_step_ms(const struct pgm *p)
-{
-    trl_timing rows[TIMINGS_MAX];
-    const size_t all = trl_renderer_timings(p->renderer, rows, TIMINGS_MAX);
-    for (size_t i = 0; i < all && i < TIMINGS_MAX; i++) {
-        if (strcmp(rows[i].name, "vertices") == 0) {
-            return rows[i].gpu_ms > 0 ? rows[i].gpu_ms : rows[i].cpu_ms;
-        }
-    }
-    return 0;
-}
 
 static trl_result draw_frame(struct pgm *p, uint32_t screen, double *fps)
 {
@@ -61,7 +48,7 @@ static trl_result measure_case(struct pgm *p, int grid, int screen)
         p->view.longitude_rad += 1e-9; // the mesh is made anew for every place
         result = draw_frame(p, sides[screen], &fps);
         if (i > 0 && result == TRL_OK) { // the first frame compiles, and makes targets
-            const double step_ms = find_step_ms(p);
+            const double step_ms = bench_pass_ms(p->renderer, "vertices");
             double *best_ms = &p->step_ms[grid][screen];
             *best_ms = *best_ms > 0 ? fmin(*best_ms, step_ms) : step_ms;
             p->fps[grid][screen] = fmax(p->fps[grid][screen], fps);

@@ -8,9 +8,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum { WIDTH = 480, HEIGHT = 270, DEFAULT_RUNS = 3, TIMINGS_MAX = 32, VALUES = WIDTH * HEIGHT * 4 };
+enum { WIDTH = 480, HEIGHT = 270, DEFAULT_RUNS = 3, VALUES = WIDTH * HEIGHT * 4 };
 
 // From outside, as the paper measures, and where most lines of sight are long.
 static const char *const view_names[] = {"full-disc", "limb", "ground", "sunset"};
@@ -47,18 +46,6 @@ static trl_result choose_view(struct santana *s, int which)
     return s->job->scene && count == 0 ? TRL_OK : trl_scene_view(s->scene, s->view_name, &s->view);
 }
 
-static double sky_ms(const trl_renderer *renderer)
-{
-    trl_timing rows[TIMINGS_MAX];
-    const size_t all = trl_renderer_timings(renderer, rows, TIMINGS_MAX);
-    for (size_t i = 0; i < all && i < TIMINGS_MAX; i++) {
-        if (strcmp(rows[i].name, "sky") == 0) {
-            return rows[i].gpu_ms > 0 ? rows[i].gpu_ms : rows[i].cpu_ms;
-        }
-    }
-    return 0;
-}
-
 // Draws once to warm up, then measures.
 static trl_result measure_drawing(const struct santana *s, trl_renderer *renderer,
                                   struct picture *out)
@@ -70,7 +57,7 @@ static trl_result measure_drawing(const struct santana *s, trl_renderer *rendere
         result = trl_renderer_draw(renderer, &s->view, WIDTH, HEIGHT, 0);
         trl_renderer_wait(renderer);
         if (i > 0) {
-            const double ms = sky_ms(renderer);
+            const double ms = bench_pass_ms(renderer, "sky");
             out->ms = fmin(out->ms, ms);
             if (result == TRL_OK) {
                 result = bench_add(s->job->table,

@@ -8,10 +8,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 // The paper's viewport.
-enum { WIDTH = 800, HEIGHT = 600, DEFAULT_RUNS = 5, STEPS = 32, TIMINGS_MAX = 32, SIDES = 3 };
+enum { WIDTH = 800, HEIGHT = 600, DEFAULT_RUNS = 5, STEPS = 32, SIDES = 3 };
 
 static const struct {
     uint32_t side;
@@ -25,19 +24,6 @@ struct schafhitzel {
     float *radiance[2]; // looked up, integrated; WIDTH x HEIGHT x 4
     int done, all;      // frames, for the progress line
 };
-
-// Milliseconds of the sky's pass in the last frame.
-static double sky_ms(const struct schafhitzel *s)
-{
-    trl_timing rows[TIMINGS_MAX];
-    const size_t all = trl_renderer_timings(s->renderer, rows, TIMINGS_MAX);
-    for (size_t i = 0; i < all && i < TIMINGS_MAX; i++) {
-        if (strcmp(rows[i].name, "sky") == 0) {
-            return rows[i].gpu_ms > 0 ? rows[i].gpu_ms : rows[i].cpu_ms;
-        }
-    }
-    return 0;
-}
 
 // Draws once to warm up, then measures; keeps the last picture.
 static trl_result draw_case(struct schafhitzel *s, uint32_t side, trl_single_drawing drawing,
@@ -56,7 +42,7 @@ static trl_result draw_case(struct schafhitzel *s, uint32_t side, trl_single_dra
         }
         result = trl_renderer_draw(s->renderer, &s->view, WIDTH, HEIGHT, 0);
         trl_renderer_wait(s->renderer);
-        const double ms = sky_ms(s);
+        const double ms = bench_pass_ms(s->renderer, "sky");
         if (i > 0 && result == TRL_OK && ms > 0) {
             *best_fps = fmax(*best_fps, 1e3 / ms);
             result = bench_add(s->job->table,
@@ -132,7 +118,7 @@ static trl_result measure_pixels(struct schafhitzel *s)
         s->done++;
         result = trl_renderer_draw(s->renderer, &s->view, WIDTH, HEIGHT, 0);
         trl_renderer_wait(s->renderer);
-        const double ms = sky_ms(s);
+        const double ms = bench_pass_ms(s->renderer, "sky");
         if (i > 0 && result == TRL_OK && ms > 0) {
             result = bench_add(s->job->table, (struct bench_sample){"every pixel, no spheres",
                                                                     "3D table", "fps", 1e3 / ms});

@@ -6,14 +6,12 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 #include <terrella/ground.h>
 
 enum {
     DEFAULT_FRAMES = 3,
     FLIGHT_FRAMES = 120,
     STEP = 8, // of the pixels along a row and a column, one in so many is looked at
-    TIMINGS_MAX = 32,
     MAX_MESHERS = 16
 };
 static const struct number_size SCREEN = {1024, 576};
@@ -62,15 +60,7 @@ static trl_result report(const struct terrain_bench *b, const char *what, double
 // Of the passes "vertices" and "mesh", which together are what a mesher does.
 static double find_mesh_ms(const trl_renderer *renderer)
 {
-    trl_timing rows[TIMINGS_MAX];
-    const size_t all = trl_renderer_timings(renderer, rows, TIMINGS_MAX);
-    double sum_ms = 0;
-    for (size_t i = 0; i < all && i < TIMINGS_MAX; i++) {
-        if (strcmp(rows[i].name, "mesh") == 0 || strcmp(rows[i].name, "vertices") == 0) {
-            sum_ms += rows[i].gpu_ms > 0 ? rows[i].gpu_ms : rows[i].cpu_ms;
-        }
-    }
-    return sum_ms;
+    return bench_pass_ms(renderer, "vertices") + bench_pass_ms(renderer, "mesh");
 }
 
 // The first frame from a place makes the mesh for it; the next ones draw it.

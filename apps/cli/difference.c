@@ -13,10 +13,9 @@ static double white_cd_m2(double ev100)
 
 static const double DARK_SHARE = 1.0 / 4096;
 
-// Of linear sRGB, ITU-R BT.709.
-static double luminance(const float *rgba)
+double difference_luminance(const float *rgb)
 {
-    return 0.2126 * (double)rgba[0] + 0.7152 * (double)rgba[1] + 0.0722 * (double)rgba[2];
+    return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
 }
 
 struct lab {
@@ -89,8 +88,8 @@ bool difference_make(const struct shot *base, const struct shot *other, struct d
     float *sizes = malloc(out->count * sizeof *sizes);
     const double dark_cd_m2 = DARK_SHARE * white_cd_m2(base->ev100);
     for (size_t i = 0; out->share && sizes && i < out->count; i++) {
-        const double at_base = luminance(base->radiance + 4 * i);
-        const double here = luminance(other->radiance + 4 * i);
+        const double at_base = difference_luminance(base->radiance + 4 * i);
+        const double here = difference_luminance(other->radiance + 4 * i);
         const bool is_dark = at_base < dark_cd_m2 && here < dark_cd_m2;
         // What is black in the base alone is counted from the edge of black.
         out->share[i] = is_dark ? NAN : (float)((here - at_base) / fmax(at_base, dark_cd_m2));

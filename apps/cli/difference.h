@@ -8,6 +8,9 @@
 #include "canvas.h"
 #include "shot.h"
 
+// Luminance of linear sRGB in its units, ITU-R BT.709.
+double difference_luminance(const float *rgb);
+
 // Owner: whoever made it.
 struct difference {
     size_t count;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "validate_map.h"
 
+#include "difference.h"
+
 #include <math.h>
 
 static const double DARK_SHARE = 1.0 / 4096;
@@ -21,17 +23,11 @@ struct canvas_color validate_map_color(int step, bool is_brighter)
     return is_brighter ? brighter[step] : darker[step];
 }
 
-// Of linear sRGB, ITU-R BT.709.
-static double luminance(const float *rgba)
-{
-    return 0.2126 * (double)rgba[0] + 0.7152 * (double)rgba[1] + 0.0722 * (double)rgba[2];
-}
-
 // Nearly all noise of a pixel is common to its colours (docs/physics.md, section 25), and so their
 // errors add up as they stand.
 static double luminance_error(const struct validate_sheet *sheet, size_t pixel)
 {
-    return sheet->error ? luminance(sheet->error + 4 * pixel) : 0;
+    return sheet->error ? difference_luminance(sheet->error + 4 * pixel) : 0;
 }
 
 struct block {
@@ -46,7 +42,7 @@ static struct block look_at_block(const struct validate_sheet *sheet, uint32_t f
     for (uint32_t i = 0; i < factor * factor; i++) {
         const size_t x = column * factor + i % factor;
         const size_t y = row * factor + i / factor;
-        const double here = luminance(sheet->radiance + 4 * (y * sheet->width + x));
+        const double here = difference_luminance(sheet->radiance + 4 * (y * sheet->width + x));
         block.mean += here / (factor * factor);
         block.least = fmin(block.least, here);
         block.most = fmax(block.most, here);
@@ -100,7 +96,7 @@ void validate_map_draw(const struct validate_map *map, uint8_t *rgba, struct val
     for (uint32_t p = 0; p < width * map->traced->height; p++) {
         const struct block drawn = look_at_block(map->drawn, factor, p % width, p / width);
         const struct block base = look_at_block(map->base, factor, p % width, p / width);
-        const double traced = luminance(map->traced->radiance + 4 * (size_t)p);
+        const double traced = difference_luminance(map->traced->radiance + 4 * (size_t)p);
         const double error = luminance_error(map->traced, p);
         const struct canvas_color color = choose_color(drawn.mean, traced, error, dark);
         if (base.mean >= dark && is_even(&base)) {
@@ -127,7 +123,7 @@ void validate_map_profile(const struct validate_sheet *sheet, struct validate_pr
         double variance = 0;
         for (uint32_t column = first; column < last; column++) {
             const size_t pixel = (size_t)row * sheet->width + column;
-            sum += luminance(sheet->radiance + 4 * pixel);
+            sum += difference_luminance(sheet->radiance + 4 * pixel);
             variance += pow(luminance_error(sheet, pixel), 2);
         }
         out->luminance[row] = sum / (last - first);
