@@ -22,7 +22,7 @@ trl_renderer_desc trl_renderer_desc_default(void)
                                .air = TRL_AIR_MARCH,
                                .mesher = TRL_MESHER_QUADTREE,
                                .projective = projective_desc_default(),
-                               .mesh_error_px = 1.25,
+                               .mesh_error_px = MESHER_ERROR_PX,
                                .waits_for_rasters = true};
 }
 

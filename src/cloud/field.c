@@ -33,6 +33,7 @@ trl_result cloud_field_init(const trl_context *ctx, const struct cloud_desc *des
 {
     *out = (struct cloud_field){.ctx = ctx, .desc = *desc, .ground_radius_m = ground_radius_m};
     out->desc.map_path = NULL;
+    cloud_field_set_time(out, 0);
     trl_result result = TRL_OK;
     if (desc->map_path) {
         result = load_map(ctx, desc->map_path, &out->map);
@@ -84,15 +85,16 @@ void cloud_field_set_time(struct cloud_field *field, double time_s)
 {
     for (size_t i = 0; i < field->desc.layer_count; i++) {
         const double turn = field->desc.layers[i].wind_m_s * time_s / field->ground_radius_m;
-        field->turn_rad[i] = remainder(turn, 2 * SHARED_PI);
+        field->turn[i][0] = cos(turn);
+        field->turn[i][1] = sin(turn);
     }
 }
 
 struct vec3 cloud_field_unturned(const struct cloud_field *field, size_t layer,
                                  struct vec3 position_m)
 {
-    const double c = cos(field->turn_rad[layer]);
-    const double s = sin(field->turn_rad[layer]);
+    const double c = field->turn[layer][0];
+    const double s = field->turn[layer][1];
     return (struct vec3){c * position_m.x + s * position_m.y, c * position_m.y - s * position_m.x,
                          position_m.z};
 }

@@ -14,7 +14,8 @@ struct cloud_field {
     const trl_context *ctx;
     struct cloud_desc desc; // but for the path
     double ground_radius_m;
-    double turn_rad[CLOUD_MAX_LAYERS]; // how far east the wind has turned a layer
+    // Cosine and sine of how far east the wind has turned a layer.
+    double turn[CLOUD_MAX_LAYERS][2];
     struct cloud_volume volume;
     bool has_map;
     struct raster_grid map; // of cover, in [0, 1]
@@ -25,7 +26,7 @@ TRL_MUST_USE trl_result cloud_field_init(const trl_context *ctx, const struct cl
                                          double ground_radius_m, struct cloud_field *out);
 void cloud_field_finish(struct cloud_field *field);
 
-// Layers stand where the wind has them then. Zero after init.
+// Layers stand where the wind has them then. At the beginning after init.
 void cloud_field_set_time(struct cloud_field *field, double time_s);
 // A place as the layer had it at the beginning.
 struct vec3 cloud_field_unturned(const struct cloud_field *field, size_t layer,

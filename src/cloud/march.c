@@ -214,8 +214,8 @@ void cloud_march_set_field(const struct cloud_march *m, const struct camera *cam
         grain[i][1] = (float)l->extinction_per_m;
         grain[i][2] = (float)cloud_field_detail(l->type);
         grain[i][3] = (float)cloud_field_overlap(l->type);
-        turn[i][0] = (float)cos(field->turn_rad[i]);
-        turn[i][1] = (float)sin(field->turn_rad[i]);
+        turn[i][0] = (float)field->turn[i][0];
+        turn[i][1] = (float)field->turn[i][1];
         const struct vec3 eye_m = cloud_field_unturned(field, i, camera->position_m);
         set_anchor(anchor[i], eye_m, l->scale_m);
         set_anchor(finer[i], eye_m, l->scale_m / CLOUD_DETAIL_TILES);

@@ -103,13 +103,14 @@ static trl_result draw(struct checker *c)
 
 // ---- the ground's shift
 
-static struct mesh_point find_point(const struct mesh_check *check, uint32_t column, double row)
+static struct reference_point find_point(const struct mesh_check *check, uint32_t column,
+                                         double row)
 {
-    return mesh_truth_point((const uint32_t[2]){check->columns, check->rows}, column, row);
+    return reference_caster_point((const uint32_t[2]){check->columns, check->rows}, column, row);
 }
 
 // Where the camera sees a position relative to it; false: behind it.
-static bool project(const struct camera *camera, struct vec3 at_m, struct mesh_point *out)
+static bool project(const struct camera *camera, struct vec3 at_m, struct reference_point *out)
 {
     const double z = vec3_dot(camera->forward, at_m);
     out->x = vec3_dot(camera->right, at_m) / (z * camera->tan_half_fov_x);
@@ -117,8 +118,8 @@ static bool project(const struct camera *camera, struct vec3 at_m, struct mesh_p
     return z > 0;
 }
 
-static double pixels_between(const struct mesh_check *check, struct mesh_point a,
-                             struct mesh_point b)
+static double pixels_between(const struct mesh_check *check, struct reference_point a,
+                             struct reference_point b)
 {
     return hypot((a.x - b.x) * check->camera.tan_half_fov_x,
                  (a.y - b.y) * check->camera.tan_half_fov_y) /
@@ -159,7 +160,7 @@ static double check_place(const struct checker *c, uint32_t column, uint32_t row
         place[i] = pixel[i];
     }
     place[3] = (float)(radius - check->radius_m - altitude);
-    struct mesh_point seen;
+    struct reference_point seen;
     const bool is_seen = project(&check->camera, vec3_sub(truth, check->camera.position_m), &seen);
     return is_seen ? pixels_between(check, seen, find_point(check, column, row)) : (double)NAN;
 }
@@ -309,12 +310,6 @@ static void check_edges(struct checker *c)
 
 // ---- all
 
-static void checker_finish(struct checker *c)
-{
-    const trl_context *ctx = c->desc->ctx;
-    mem_free(ctx, c->drawn);
-}
-
 static trl_result checker_init(const struct mesh_check_desc *desc, struct checker *c)
 {
     const size_t count = (size_t)c->check->columns * c->check->rows;
@@ -350,7 +345,7 @@ trl_result mesh_check_init(const struct mesh_check_desc *desc, const struct mesh
         count_holes(&c);
         check_edges(&c);
     }
-    checker_finish(&c);
+    mem_free(desc->ctx, c.drawn);
     if (result != TRL_OK) {
         mesh_check_finish(out);
     }

@@ -47,8 +47,7 @@ struct search {
 static double cast_between(const struct search *s, double row, double length_m)
 {
     const uint32_t size[2] = {s->truth->columns, s->truth->rows};
-    const struct mesh_point p = mesh_truth_point(size, s->column, row);
-    return reference_caster_ray(s->caster, p.x, p.y, length_m);
+    return reference_caster_ray(s->caster, reference_caster_point(size, s->column, row), length_m);
 }
 
 // Halves until the sides are as near as can be seen. What is far of a side is known when nothing is

@@ -32,14 +32,4 @@ void mesh_truth_finish(struct mesh_truth *truth);
 TRL_MUST_USE trl_result mesh_truth_find_edges(struct mesh_truth *truth,
                                               const struct reference_caster *caster);
 
-// The place in the middle of a column and (a part of) a row, in [-1, 1]^2, y up.
-struct mesh_point {
-    double x, y;
-};
-static inline struct mesh_point mesh_truth_point(const uint32_t size[2], uint32_t column,
-                                                 double row)
-{
-    return (struct mesh_point){(2 * column + 1.0) / size[0] - 1, (2 * row + 1.0) / size[1] - 1};
-}
-
 #endif // FRAME_MESH_TRUTH_H

@@ -6,10 +6,12 @@
 
 #include <math.h>
 
-static struct reference_way find_way(const struct reference_caster *caster, double x, double y)
+static struct reference_way find_way(const struct reference_caster *caster,
+                                     struct reference_point point)
 {
     return (struct reference_way){.from_m = caster->camera->position_m,
-                                  .direction = vec3_normalize(camera_ray(caster->camera, x, y)),
+                                  .direction =
+                                      vec3_normalize(camera_ray(caster->camera, point.x, point.y)),
                                   .length_m = INFINITY,
                                   .pixel_rad = caster->pixel_rad};
 }
@@ -20,17 +22,18 @@ static double follow(const struct reference_caster *caster, const struct referen
     return met >= 0 ? met : HUGE_VAL;
 }
 
-double reference_caster_ray(const struct reference_caster *caster, double x, double y,
+double reference_caster_ray(const struct reference_caster *caster, struct reference_point point,
                             double length_m)
 {
-    struct reference_way way = find_way(caster, x, y);
+    struct reference_way way = find_way(caster, point);
     way.length_m = length_m;
     return follow(caster, &way);
 }
 
-static struct reference_hit cast(const struct reference_caster *caster, double x, double y)
+static struct reference_hit cast(const struct reference_caster *caster,
+                                 struct reference_point point)
 {
-    const struct reference_way way = find_way(caster, x, y);
+    const struct reference_way way = find_way(caster, point);
     struct reference_hit hit = {.distance_m = follow(caster, &way)};
     if (isfinite(hit.distance_m)) {
         struct reference_look look;
@@ -52,7 +55,7 @@ static void cast_row(void *user, uint32_t row)
     const struct picture *p = user;
     for (uint32_t column = 0; column < p->size[0]; column++) {
         p->hits[(size_t)row * p->size[0] + column] =
-            cast(p->caster, (2 * column + 1.0) / p->size[0] - 1, (2 * row + 1.0) / p->size[1] - 1);
+            cast(p->caster, reference_caster_point(p->size, column, row));
     }
 }
 

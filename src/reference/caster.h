@@ -18,6 +18,18 @@ struct reference_caster {
                       // passed by
 };
 
+// A point of the picture, in [-1, 1]^2, y up: in the middle of a column and (a part of) a row of so
+// many, the lowest row first.
+struct reference_point {
+    double x, y;
+};
+static inline struct reference_point reference_caster_point(const uint32_t size[2], uint32_t column,
+                                                            double row)
+{
+    return (struct reference_point){(2 * column + 1.0) / size[0] - 1,
+                                    (2 * row + 1.0) / size[1] - 1};
+}
+
 // What a ray meets first.
 struct reference_hit {
     double distance_m; // along the ray; INFINITY: nothing
@@ -25,9 +37,8 @@ struct reference_hit {
     struct vec3 normal;
 };
 
-// Distance of what a ray meets through the point (x, y) in [-1, 1]^2 of the picture, y up;
-// INFINITY: nothing within `length_m`.
-double reference_caster_ray(const struct reference_caster *caster, double x, double y,
+// Distance of what a ray meets through a point; INFINITY: nothing within `length_m`.
+double reference_caster_ray(const struct reference_caster *caster, struct reference_point point,
                             double length_m);
 
 // Through the middles of columns x rows pixels, the lowest row first; on all cores.

@@ -28,11 +28,14 @@ struct mesher_ops {
     void (*destroy)(struct mesher *mesher);
 };
 
+// What the picture may show of a mesh that follows its errors, unless another is asked for, pixels.
+#define MESHER_ERROR_PX 1.25
+
 // Base of each mesher. Owner: caller. Must not outlive its surface.
 struct mesher {
     const struct mesher_ops *ops;
     struct mesher_stats stats;
-    double error_px; // wanted at most, for those that follow it; 0: their own
+    double error_px; // wanted at most, for those that follow it; 0: MESHER_ERROR_PX
 };
 
 // NULL: there is no such mesher.

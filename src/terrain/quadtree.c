@@ -23,7 +23,6 @@ enum {
     VERTICES = QUADTREE_VERTICES + 2 * BORDER, // of the grid, and the curtain's upper and lower
     MESHES = 4 // of every vertex, every second, every fourth, every eighth
 };
-static const double DEFAULT_ERROR_PX = 1.25;
 // Neighbours agree at their borders but for the last digit of a float. A curtain, this part of the
 // distance long, fills the gaps that this leaves between pixels. It is drawn at infinite distance,
 // so that nothing of it is seen but there.
@@ -324,7 +323,7 @@ static trl_result draw(struct mesher *base, const struct gpu_target *target)
     // A pixel's side; where pixels are not square, the root of its area.
     const double pixel_rad = 2 * sqrt(q->camera.tan_half_fov_x / target->width *
                                       q->camera.tan_half_fov_y / target->height);
-    const double error_px = base->error_px > 0 ? base->error_px : DEFAULT_ERROR_PX;
+    const double error_px = base->error_px > 0 ? base->error_px : MESHER_ERROR_PX;
     const double tolerance_rad = error_px * pixel_rad;
     trl_result result = quadtree_refine(&q->nodes, &q->camera, tolerance_rad, &q->leaves);
     if (result == TRL_OK) {

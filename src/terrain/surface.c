@@ -8,8 +8,9 @@
 
 #include <math.h>
 
-// Of the layers, over what lies below them.
 typedef double (*sample_fn)(const struct terrain_layer *layer, double x, double y);
+
+// Of the layers, over what lies below them.
 static double lay_over(const struct surface *s, sample_fn sample, double below, double latitude,
                        double longitude)
 {

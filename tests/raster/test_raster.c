@@ -547,8 +547,6 @@ static void colours_come_as_rgba(void **state)
     }
 }
 
-// Every file cut short at any length must give an error when opened or read, never a crash, and
-// never pixels that are not in it.
 // Pixels 0 to 3 as red, green, blue, and a colour that is no data.
 static void numbers_of_colours_come_as_colours(void **state)
 {
@@ -617,6 +615,8 @@ static void masks_of_files_leave_pixels_out(void **state)
     }
 }
 
+// Every file cut short at any length must give an error when opened or read, never a crash, and
+// never pixels that are not in it.
 static void check_truncated(struct fixture *f, const char *data, size_t size,
                             const struct recipe *r)
 {

@@ -230,7 +230,7 @@ static double find_jitter(const struct planet *p, const struct scene *scene)
     enum { STEPS = 3 };
     struct camera camera = planet_camera(p, scene->place, scene->height_m);
     const struct reference_caster caster = {&p->truth, R, &camera, 0};
-    double distance = reference_caster_ray(&caster, 0, -0.5, INFINITY);
+    double distance = reference_caster_ray(&caster, (struct reference_point){0, -0.5}, INFINITY);
     distance = isfinite(distance) ? distance : scene->height_m;
     const double pixel_m = distance * 2 * camera.tan_half_fov_y / SIDE;
     struct mesh_check before, after;

@@ -14,7 +14,7 @@
 static const double R = 1e6;
 static const double DEGREE = 3.14159265358979323846 / 180;
 // What the mesher aims at, in pixels.
-static const double ERROR_PX = 1.25;
+static const double ERROR_PX = MESHER_ERROR_PX;
 
 // Smooth over the whole sphere, poles and antimeridian included: hills of four texels upon larger
 // ones upon mountains.
