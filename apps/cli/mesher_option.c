@@ -35,7 +35,7 @@ struct option mesher_option_make_grid(struct mesher_option *target)
                            .target.size = &target->grid,
                            .metavar = "COLUMNSxROWS",
                            .help = "Vertices of the projective mesh, even numbers from 16 to 2048, "
-                                   "whatever the picture's size. Default: 320x320."};
+                                   "whatever the picture's size. Default: 400x400."};
 }
 
 struct option mesher_option_make_error(struct mesher_option *target)

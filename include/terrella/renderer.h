@@ -101,7 +101,7 @@ typedef struct trl_renderer_desc {
     int sky_model;          ///< a trl_sky_model, or TRL_SKY_MODEL_OF_SCENE (default)
     trl_air air;            ///< default TRL_AIR_MARCH
     trl_mesher mesher;      ///< default TRL_MESHER_QUADTREE
-    trl_projective_desc projective; ///< of TRL_MESHER_PROJECTIVE; default 320 x 320, by relief
+    trl_projective_desc projective; ///< of TRL_MESHER_PROJECTIVE; default 400 x 400, by relief
     double mesh_error_px; ///< of TRL_MESHER_QUADTREE: the error of the mesh that may be seen, in
                           ///< pixels, [TRL_MESH_ERROR_MIN_PX, TRL_MESH_ERROR_MAX_PX]; default 1.25
     const trl_rayleigh_desc *rayleigh; ///< for TRL_SKY_RAYLEIGH; copied; NULL (default): as the
@@ -286,8 +286,8 @@ TRL_API TRL_MUST_USE trl_result trl_renderer_set_projective(trl_renderer *render
 /// patches of 8 x 8 of them.
 enum { TRL_HEMISPHERE_MIN_CELLS = 32, TRL_HEMISPHERE_MAX_CELLS = 2048, TRL_HEMISPHERE_STEP = 16 };
 
-/// Makes that grid anew with another size; 800 is what a renderer begins with. Does not go over to
-/// those meshers.
+/// Makes that grid anew with another size; a renderer begins with 1312, tessellated with 800. Does
+/// not go over to those meshers.
 /// @param cells  a multiple of TRL_HEMISPHERE_STEP within the limits above
 /// @return TRL_OK; TRL_ERROR_INVALID (a size that cannot be); TRL_ERROR_MEMORY; TRL_ERROR_GPU; on
 ///         failure the old one stays

@@ -193,7 +193,7 @@ trl_result ground_init(struct gpu *gpu, const struct ground_desc *desc, struct g
     *out = (struct ground){.gpu = gpu,
                            .mesher = desc->meshing.mesher,
                            .projective = desc->meshing.projective,
-                           .hemisphere_cells = HEMISPHERE_CELLS,
+                           .hemisphere_cells = 0,
                            .mesh_error_px = desc->meshing.error_px,
                            .lights_cd_m2 = ground_find_lights_cd_m2(scene),
                            .region_m = 2 * medium_scattering_height(&scene->medium)};

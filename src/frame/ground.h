@@ -34,7 +34,7 @@ struct ground {
     struct surface surface;
     trl_mesher mesher;                        // that frames are drawn with
     trl_projective_desc projective;           // options of that mesher
-    uint32_t hemisphere_cells;                // of those two
+    uint32_t hemisphere_cells;                // of those two; 0: their own
     double mesh_error_px;                     // wanted of meshers that follow one
     struct mesher *meshers[MESHER_MAX_KINDS]; // by trl_mesher; made when first asked for; none when
                                               // bare, as the passes below

@@ -19,7 +19,7 @@
 #include <math.h>
 
 // HEMISPHERE_CELLS to a side of the grid in chunks of CHUNK_CELLS: a sixth of it, as much as a view
-// of 60 degrees along the ground sees, is 210 thousand triangles.
+// of 60 degrees along the ground sees, is 570 thousand triangles.
 enum { CHUNK_CELLS = TRL_HEMISPHERE_STEP };
 // The higher the camera, the more of the grid is in view at once, and the smaller it is there:
 // above these parts of the radius every second and every fourth vertex is enough.
@@ -446,7 +446,8 @@ trl_result hemisphere_create_of(const struct surface *surface, const struct hemi
     h->gpu = surface->gpu;
     h->surface = surface;
     h->is_tessellated = desc->is_tessellated;
-    h->cells = desc->cells;
+    const uint32_t own = desc->is_tessellated ? TESSELLATED_CELLS : HEMISPHERE_CELLS;
+    h->cells = desc->cells > 0 ? desc->cells : own;
     h->chunk_row = h->cells / CHUNK_CELLS;
     h->chunk_count = h->chunk_row * h->chunk_row;
     const trl_result result = make_parts(h);
@@ -461,10 +462,10 @@ trl_result hemisphere_create_of(const struct surface *surface, const struct hemi
 
 trl_result hemisphere_create(const struct surface *surface, struct mesher **out)
 {
-    return hemisphere_create_of(surface, &(struct hemisphere_desc){HEMISPHERE_CELLS, false}, out);
+    return hemisphere_create_of(surface, &(struct hemisphere_desc){0, false}, out);
 }
 
 trl_result hemisphere_create_tessellated(const struct surface *surface, struct mesher **out)
 {
-    return hemisphere_create_of(surface, &(struct hemisphere_desc){HEMISPHERE_CELLS, true}, out);
+    return hemisphere_create_of(surface, &(struct hemisphere_desc){0, true}, out);
 }

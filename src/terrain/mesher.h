@@ -55,12 +55,12 @@ TRL_MUST_USE trl_result mesher_update(struct mesher *mesher, const struct camera
 #define MESHER_NO_SURFACE (-1e9f)
 TRL_MUST_USE trl_result mesher_draw(struct mesher *mesher, const struct gpu_target *target);
 
-// The hemisphere's grid, see trl_renderer_set_hemisphere.
-enum { HEMISPHERE_CELLS = 800 };
+// The hemisphere's grid, see trl_renderer_set_hemisphere. Tessellation makes cells of its own.
+enum { HEMISPHERE_CELLS = 1312, TESSELLATED_CELLS = 800 };
 bool hemisphere_cells_are_good(uint32_t cells);
 
 struct hemisphere_desc {
-    uint32_t cells; // good ones
+    uint32_t cells; // good ones; 0: as many as the mesher begins with
     bool is_tessellated;
 };
 TRL_MUST_USE trl_result hemisphere_create_of(const struct surface *surface,

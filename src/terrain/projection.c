@@ -10,8 +10,9 @@
 static const double THRESHOLD_OF_HEIGHT = 0.15;
 static const double MIN_THRESHOLD_M = 10;
 static const double NEAR_TEXELS = 3;
-// Noise goes on below; a grid that followed it would have nothing left for the distance.
-static const double NOISE_TEXEL_M = 400;
+// Noise goes on below; a grid that followed it would have nothing left for the distance. With 400 m
+// the ground in front of a camera 200 m high was the worst of its picture.
+static const double NOISE_TEXEL_M = 130;
 static const double MAX_POWER = 4; // beyond, far rings lie too far apart
 
 double projection_lift(double distance_m, double ground_m, double peak_m)

@@ -40,7 +40,7 @@ struct projective {
 
 trl_projective_desc projective_desc_default(void)
 {
-    return (trl_projective_desc){.columns = 320, .rows = 320};
+    return (trl_projective_desc){.columns = 400, .rows = 400};
 }
 
 static void put_cell(uint32_t *indices, uint32_t a, uint32_t width)

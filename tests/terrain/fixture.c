@@ -183,7 +183,8 @@ struct composed fixture_compose_middle(const struct fixture *f, const struct sur
     struct gpu_texture colors[3];
     static const enum gpu_format FORMATS[3] = {GPU_FORMAT_RGBA8, GPU_FORMAT_RGBA32F,
                                                GPU_FORMAT_RGBA8};
-    assert_int_equal(mesher_create(s, TRL_MESHER_HEMISPHERE, &mesher), TRL_OK);
+    const struct hemisphere_desc grid = {FIXTURE_CELLS, false};
+    assert_int_equal(hemisphere_create_of(s, &grid, &mesher), TRL_OK);
     assert_int_equal(terrain_shadow_init(s, 0.0047, &shadow), TRL_OK);
     assert_int_equal(terrain_compose_init(s, &compose), TRL_OK);
     fixture_picture_init(f, &picture);

@@ -59,6 +59,8 @@ struct camera fixture_camera(const struct camera_place *place);
 
 // What a mesher draws: positions (4 floats a pixel) of a square picture. Free with mem_free.
 enum { PICTURE_SIDE = 160 };
+// Of the hemisphere's grid: less than a renderer's, what is shown with it holds for any.
+enum { FIXTURE_CELLS = 800 };
 struct picture {
     struct gpu_texture position, depth;
     struct gpu_target target;

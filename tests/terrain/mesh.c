@@ -46,7 +46,8 @@ static void make_planet(struct fixture *f, struct planet *p)
     desc.layers = layers;
     p->f = f;
     assert_int_equal(surface_init(f->gpu, &desc, &p->surface), TRL_OK);
-    assert_int_equal(mesher_create(&p->surface, TRL_MESHER_HEMISPHERE, &p->mesher), TRL_OK);
+    const struct hemisphere_desc grid = {FIXTURE_CELLS, false};
+    assert_int_equal(hemisphere_create_of(&p->surface, &grid, &p->mesher), TRL_OK);
     fixture_picture_init(f, &p->picture);
 }
 
@@ -116,7 +117,7 @@ static void test_a_grid_of_another_size_is_the_same_ground(void **state)
     make_planet(*state, &p);
     const uint64_t bytes = p.mesher->stats.bytes;
     mesher_destroy(&p.mesher);
-    const struct hemisphere_desc desc = {HEMISPHERE_CELLS / 2, false};
+    const struct hemisphere_desc desc = {FIXTURE_CELLS / 2, false};
     assert_int_equal(hemisphere_create_of(&p.surface, &desc, &p.mesher), TRL_OK);
     assert_true(p.mesher->stats.bytes < bytes / 3);
     struct camera_place place = PLACES[PLACE_COUNT - 1];

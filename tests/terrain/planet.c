@@ -30,7 +30,11 @@ void planet_make(struct fixture *f, planet_heights *globe, planet_heights *inset
 bool planet_use(struct planet *planet, trl_mesher mesher)
 {
     mesher_destroy(&planet->mesher);
-    const trl_result result = mesher_create(&planet->relief.surface, mesher, &planet->mesher);
+    const struct surface *surface = &planet->relief.surface;
+    const struct hemisphere_desc grid = {FIXTURE_CELLS, false};
+    const trl_result result = mesher == TRL_MESHER_HEMISPHERE
+                                  ? hemisphere_create_of(surface, &grid, &planet->mesher)
+                                  : mesher_create(surface, mesher, &planet->mesher);
     assert_true(result == TRL_OK ||
                 (result == TRL_ERROR_UNSUPPORTED && mesher == TRL_MESHER_TESSELLATED &&
                  !planet->f->gpu->caps.has_tessellation));
