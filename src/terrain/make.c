@@ -6,11 +6,11 @@
 
 #include <math.h>
 
-// Below the data: half folded; natural slopes grow with the -0.2nd power of the scale or so;
+// Below the data: half folded; natural slopes grow with the -0.1st power of the scale or so;
 // gullies are from an eighth of the first wave down; level ground is as much smoother; and there is
 // no relief at sea level, where water is.
 static const double DETAIL_RIDGED = 0.5;
-static const double DETAIL_HURST = 0.8;
+static const double DETAIL_HURST = 0.9;
 static const double DETAIL_WAVES_TO_GULLY = 8;
 static const double DETAIL_LEVEL_ROUGHNESS = 0.35;
 static const double DETAIL_FULL_HEIGHT_M = 25;

@@ -7,24 +7,27 @@
 #include <math.h>
 
 enum { WIDTH = 512, HEIGHT = 256, SAMPLES = 4 };
-// What noise of amplitude 1 and a wavelength of 4 texels, with all octaves below and above in
-// proportion, shows of the quantity that is measured: found by evaluating it, 0.49 to 0.69 for
-// Hurst exponents of 0.6 to 1, folded by half or not.
-static const double OF_NOISE = 0.58;
+// What the ground shows of the quantity that is measured, for noise of amplitude 1 that goes on
+// below it. Chosen so that the globe's map of 3.7 km with noise is as rough, from 200 m to 4 km, as
+// models of 30 to 90 m of four mountains are: 0.57 to 1.43 times, 0.92 in the mean
+// (docs/physics.md, section 26).
+static const double OF_NOISE = 0.5;
 // The least amplitude relative to the wavelength: what whole metres hide on plains.
 static const double LEAST = 0.006;
 
-// Second differences over a texel's height, along both directions: slopes of the ground do not
-// count, what bends within three texels does.
+// Second differences over ROUGHNESS_TEXELS texels' height, along both directions: slopes of the
+// ground do not count. Nearer texels of most maps are smoother than the ground.
 double roughness_square_bend(const struct terrain_layer *layer, double latitude, double longitude)
 {
     const struct layer_frame *f = &layer->frame;
     const struct layer_place p = layer_locate(f, latitude, longitude);
     const int64_t x = (int64_t)floor(p.x + 0.5), y = (int64_t)floor(p.y + 0.5);
     const double columns = f->texel_height / (f->texel_width * fmax(cos(latitude), 1e-3));
-    const int64_t step = (int64_t)fmax(1, fmin(floor(columns + 0.5), f->width / 4.0));
+    const int64_t up = ROUGHNESS_TEXELS;
+    const int64_t step =
+        (int64_t)fmax(1, fmin(floor(ROUGHNESS_TEXELS * columns + 0.5), f->width / 4.0));
     const double middle = 2 * layer_texel(layer, x, y);
-    const double along = layer_texel(layer, x, y - 1) + layer_texel(layer, x, y + 1) - middle;
+    const double along = layer_texel(layer, x, y - up) + layer_texel(layer, x, y + up) - middle;
     const double across =
         layer_texel(layer, x - step, y) + layer_texel(layer, x + step, y) - middle;
     // Heights in whole units bend by chance: a twelfth for each of six.

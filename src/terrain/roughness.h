@@ -7,8 +7,8 @@
 #include "terrain/layer.h"
 #include "terrain/noise.h"
 
-// Waves of so many texels are what the roughness is measured at.
-#define ROUGHNESS_TEXELS 4.0
+// What the roughness is measured over, in texels: waves of that length.
+enum { ROUGHNESS_TEXELS = 4 };
 
 struct roughness_desc {
     const struct terrain_layer *layer; // heights; where they are not, there is no roughness

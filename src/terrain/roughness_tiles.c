@@ -24,13 +24,14 @@ static double mean_of_tile(const struct stream_layer *l, const void *texels)
 {
     const double scale = l->layer->heights.scale;
     double sum = 0, count = 0;
-    for (uint32_t y = PYRAMID_BORDER; y < PYRAMID_SIDE - PYRAMID_BORDER; y += STEP) {
-        for (uint32_t x = PYRAMID_BORDER; x < PYRAMID_SIDE - PYRAMID_BORDER; x += STEP) {
+    const uint32_t far = ROUGHNESS_TEXELS;
+    for (uint32_t y = far; y < PYRAMID_SIDE - far; y += STEP) {
+        for (uint32_t x = far; x < PYRAMID_SIDE - far; x += STEP) {
             const double middle = 2 * value_at(l, texels, x, y);
             const double along =
-                value_at(l, texels, x, y - 1) + value_at(l, texels, x, y + 1) - middle;
+                value_at(l, texels, x, y - far) + value_at(l, texels, x, y + far) - middle;
             const double across =
-                value_at(l, texels, x - 1, y) + value_at(l, texels, x + 1, y) - middle;
+                value_at(l, texels, x - far, y) + value_at(l, texels, x + far, y) - middle;
             const double rounding = l->pyramid.format == PYRAMID_INT16 ? 0.5 : 0;
             sum += scale * scale * fmax(0.5 * (along * along + across * across) - rounding, 0);
             count++;
