@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Colour, water and normal of the ground at a place: part of terrain/surface.frag.
+#include "shared/albedo.glsl"
 #ifdef HAS_BIOMES
 #include "terrain/biomes.glsl"
 #endif
@@ -22,16 +23,23 @@ struct LookPlace {
 };
 
 #ifdef HAS_NOISE
-// Snow and soil slide off what is steeper than their angle of repose, and leave rock: greyer, and
-// no brighter than a fifth. Square roots.
-vec3 look_weathered(vec3 root, float tone, float slope)
+// Linear albedo of rock, and how much of its colour is that of the pictures, where that is no
+// brighter; tangents of the slopes from which, and above which, it is bare.
+uniform vec4 u_rock;
+uniform vec4 u_rock_slopes;
+
+// Snow and soil slide off what is steeper than their angle of repose, and leave rock. Square roots.
+// What is too steep or too flat to be seen counts by its spread.
+vec3 look_weathered(vec3 root, float tone, float slope, float spread)
 {
+    const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
     vec3 c = root * root;
-    float luminance = dot(c, vec3(0.2126, 0.7152, 0.0722));
-    vec3 rock = 0.8 * mix(c, vec3(luminance), 0.5) * min(1.0, 0.2 / max(luminance, 1e-3));
-    float snow = smoothstep(0.3, 0.6, luminance); // even, where it lies
-    c = mix(c, rock, smoothstep(0.6, 1.1, slope));
-    return sqrt(clamp(c * (1.0 + u_noise_more.z * (1.0 - 0.8 * snow) * tone), 0.0, 1.0));
+    vec3 tinted = c * min(1.0, dot(u_rock.rgb, LUMINANCE) / max(dot(c, LUMINANCE), 1e-3));
+    vec3 rock = mix(u_rock.rgb, tinted, u_rock.a);
+    c = mix(c, rock, smoothstep(u_rock_slopes.x - spread, u_rock_slopes.y + spread, slope));
+    float paler = max(1.0 + u_noise_more.z * tone, 0.1);
+    return sqrt(
+        vec3(albedo_varied(c.r, paler), albedo_varied(c.g, paler), albedo_varied(c.b, paler)));
 }
 
 // The part of a footprint that is below the level of the sea. Waves and shallows are the ocean's.
@@ -83,7 +91,7 @@ Look find_look(Tangent t, LookPlace p)
         terrain_albedo(sqrt(clamp(region, 0.0, 1.0)), t.ground, max(t.log2_footprint, u_region));
 #ifndef HAS_GROUND
     float land = 1.0 - look.water;
-    look.root = look_weathered(look.root, land * r.tone, land * steep);
+    look.root = look_weathered(look.root, land * r.tone, land * steep, land * sqrt(r.unseen));
 #endif
     look.normal = normalize(t.up - (1.0 - look.water) * slope);
     RockNormal smooth_normal = RockNormal(look.normal.x, look.normal.y, look.normal.z);

@@ -62,8 +62,6 @@ void ground_describe(const trl_context *ctx, const struct trl_scene *scene,
     out->exaggeration = scene->exaggeration;
     out->depth = (struct surface_depth){scene->ocean.is_there, scene->ocean.bed.depth_m};
     out->max_bytes = 1e6 * ctx->desc.raster_mb;
-    out->detail = (struct surface_detail){scene->detail.roughness, scene->detail.albedo_variation,
-                                          scene->detail.smallest_m};
     daylight_ground_albedo(&scene->medium, out->default_albedo);
     invention_describe(scene, out);
 }

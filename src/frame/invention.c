@@ -71,8 +71,24 @@ static void describe_biomes(const struct trl_scene *scene, struct biomes *out)
     }
 }
 
+static void describe_detail(const struct trl_scene *scene, struct surface_detail *out)
+{
+    const struct scene_rock *rock = &scene->detail.rock;
+    const double degree = M_PI / 180, half = rock->feather_deg / 2;
+    *out = (struct surface_detail){scene->detail.roughness,
+                                   scene->detail.albedo_variation,
+                                   scene->detail.smallest_m,
+                                   {.tint = rock->tint}};
+    if (rock->is_there) {
+        daylight_albedo(&scene->medium, &rock->albedo, out->rock.albedo);
+        out->rock.slopes[0] = tan(fmax(rock->slope_deg - half, 0) * degree);
+        out->rock.slopes[1] = tan(fmin(rock->slope_deg + half, 89) * degree);
+    }
+}
+
 void invention_describe(const struct trl_scene *scene, struct surface_desc *out)
 {
+    describe_detail(scene, &out->detail);
     if (scene->noise.is_there) {
         describe_noise(scene, out);
         describe_biomes(scene, &out->biomes);

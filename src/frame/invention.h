@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #ifndef FRAME_INVENTION_H
 #define FRAME_INVENTION_H
-// The invented ground of a scene: noise and biomes, as struct surface takes them.
+// The invented ground of a scene, as struct surface takes it: noise, biomes, detail below data.
 
 #include "scene/scene.h"
 #include "terrain/surface.h"

@@ -126,30 +126,46 @@ static trl_result read_layer(const struct scene_node *node, struct layer *out)
     return result == TRL_OK ? scene_node_bool_or(&optional, &out->is_optional) : result;
 }
 
+// From 39 degrees on, the angle of repose of what is loose, over 17 on both sides together, when
+// missing.
+static trl_result read_rock(const struct scene_node *node, struct scene_rock *out)
+{
+    if (!node->value) {
+        return TRL_OK;
+    }
+    const struct scene_node albedo = scene_node_member(node, "albedo");
+    const struct scene_range degrees = {.min = 0, .max = 80};
+    const struct scene_number numbers[] = {
+        {"tint", {.min = 0, .max = 1}, &out->tint},
+        {"slope_deg", degrees, &out->slope_deg},
+        {"feather_deg", {.min = 0, .max = 80, .is_min_open = true}, &out->feather_deg}};
+    *out = (struct scene_rock){.is_there = true, .tint = 0.5, .slope_deg = 39, .feather_deg = 17};
+    trl_result result = scene_node_check_keys(
+        node, (const char *const[]){"albedo", "tint", "slope_deg", "feather_deg", NULL});
+    if (result == TRL_OK) {
+        result =
+            scene_read_spectrum(&albedo, &(struct scene_range){.min = 0, .max = 1}, &out->albedo);
+    }
+    return result == TRL_OK ? scene_read_numbers(node, numbers, 3) : result;
+}
+
 static trl_result read_detail(const struct scene_node *node, struct scene_detail *out)
 {
     if (!node->value) {
         return TRL_OK;
     }
-    const struct scene_range parts = {.min = 0, .max = 10};
-    const struct scene_range variations = {.min = 0, .max = 1};
-    const struct scene_range lengths = {.min = 0.01, .max = 1e6};
-    const struct scene_node roughness = scene_node_member(node, "roughness");
-    const struct scene_node variation = scene_node_member(node, "albedo_variation");
-    const struct scene_node smallest = scene_node_member(node, "smallest_m");
+    const struct scene_node rock = scene_node_member(node, "rock");
+    const struct scene_number numbers[] = {
+        {"roughness", {.min = 0, .max = 10}, &out->roughness},
+        {"albedo_variation", {.min = 0, .max = 1}, &out->albedo_variation},
+        {"smallest_m", {.min = 0.01, .max = 1e6}, &out->smallest_m}};
     *out = (struct scene_detail){.roughness = 1, .albedo_variation = 0.2, .smallest_m = 0.2};
     trl_result result = scene_node_check_keys(
-        node, (const char *const[]){"roughness", "albedo_variation", "smallest_m", NULL});
+        node, (const char *const[]){"roughness", "albedo_variation", "smallest_m", "rock", NULL});
     if (result == TRL_OK) {
-        result = scene_node_number_or(&roughness, &parts, &out->roughness);
+        result = scene_read_numbers(node, numbers, 3);
     }
-    if (result == TRL_OK) {
-        result = scene_node_number_or(&variation, &variations, &out->albedo_variation);
-    }
-    if (result == TRL_OK) {
-        result = scene_node_number_or(&smallest, &lengths, &out->smallest_m);
-    }
-    return result;
+    return result == TRL_OK ? read_rock(&rock, &out->rock) : result;
 }
 
 trl_result scene_read_layers(const struct scene_node *root, struct trl_scene *out)

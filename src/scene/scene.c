@@ -191,6 +191,7 @@ void trl_scene_destroy(trl_scene **scene)
     for (size_t i = 0; i < s->biome_count; i++) {
         spectrum_finish(ctx, &s->biomes[i].albedo);
     }
+    spectrum_finish(ctx, &s->detail.rock.albedo);
     for (size_t i = 0; i < s->view_count; i++) {
         mem_free(ctx, s->view_names[i]);
     }

@@ -46,11 +46,20 @@ struct layer {
     struct spectrum albedo; // snow: of what covers the ground
 };
 
+// What is left bare where the ground is steep.
+struct scene_rock {
+    bool is_there;
+    struct spectrum albedo;
+    double tint; // part of its colour that is that of the layers there, if that is no brighter
+    double slope_deg, feather_deg;
+};
+
 // Made-up ground below the resolution of the layers; all 0: none.
 struct scene_detail {
     double roughness; // slopes relative to the data's
     double albedo_variation;
     double smallest_m; // shortest wavelength
+    struct scene_rock rock;
 };
 
 // Ground made of noise, below all layers.

@@ -9,6 +9,8 @@
 
 // A layer that covers fewer pixels than this is left out.
 static const double LEAST_PIXELS = 3;
+// Steeper than any ground.
+static const float NO_SLOPE = 1e9f;
 
 static trl_result make_program(struct terrain_compose *compose, bool has_noise, size_t elevations)
 {
@@ -78,6 +80,16 @@ static void tell_left_out(struct terrain_compose *compose, const struct surface_
     }
 }
 
+static void bind_rock(const struct surface_rock *rock, struct gpu_program *program)
+{
+    const bool is_there = rock->slopes[1] > 0;
+    const float colour[4] = {rock->albedo[0], rock->albedo[1], rock->albedo[2], (float)rock->tint};
+    const float slopes[4] = {is_there ? (float)rock->slopes[0] : NO_SLOPE,
+                             is_there ? (float)rock->slopes[1] : 2 * NO_SLOPE, 0, 0};
+    gpu_program_set_vec4(program, "u_rock", colour);
+    gpu_program_set_vec4(program, "u_rock_slopes", slopes);
+}
+
 trl_result terrain_compose_draw(struct terrain_compose *compose,
                                 const struct terrain_compose_inputs *in,
                                 const struct gpu_target *target)
@@ -99,6 +111,7 @@ trl_result terrain_compose_draw(struct terrain_compose *compose,
     surface_bind(surface, &selection, &anchor, program);
     terrain_shadow_bind(in->shadow, in->camera, program);
     biomes_bind(&surface->biomes, program);
+    bind_rock(&surface->rock, program);
     gpu_program_set_texture(program, "u_position", in->position);
     gpu_program_set_mat3(program, "u_local_from_planet", local_from_planet);
     gpu_program_set_vec4(program, "u_view", view);

@@ -60,6 +60,7 @@ trl_result make_detail(const struct surface_desc *desc, struct surface *s)
                                      .albedo_variation = d->albedo_variation};
     struct noise_map map;
     const trl_result result = roughness_make(s->ctx, &roughness, &map);
+    s->rock = d->rock;
     return result == TRL_OK ? noise_init(s->gpu, &noise, &map, &s->noise) : result;
 }
 

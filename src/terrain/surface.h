@@ -41,11 +41,19 @@ struct surface_layer_desc {
     float cover_rgb[3];
 };
 
+// What made-up relief leaves bare: nothing below the lower slope, all above the upper.
+struct surface_rock {
+    float albedo[3];  // linear sRGB
+    double tint;      // part of its colour that is that of the pictures
+    double slopes[2]; // tangents; both 0: no rock
+};
+
 // Made-up relief and colour below the resolution of the data.
 struct surface_detail {
     double roughness;        // relative to the data's; 1 is as natural
-    double albedo_variation; // standard deviation relative to the albedo, nearly
+    double albedo_variation; // standard deviation relative to a dark albedo, nearly
     double smallest_m;       // its shortest wavelength, > 0
+    struct surface_rock rock;
 };
 
 // Whether the surface tells how deep open water is, by codes of shared/sea.glsl.
@@ -89,6 +97,7 @@ struct surface {
     struct terrain_layer layers[SURFACE_KIND_COUNT][SURFACE_MAX_LAYERS];
     struct terrain_noise noise;
     struct biomes biomes;
+    struct surface_rock rock;
     bool is_invented;              // the noise's map is the ground below all layers
     struct surface_bounds *bounds; // owned; north row first, from 180 W
     double min_altitude_m, max_altitude_m;

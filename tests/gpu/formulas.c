@@ -3,6 +3,7 @@
 // The GPU's float and C's double agree on the formulas that are one text for both.
 #include "fixture.h"
 
+#include "shared/albedo.glsl"
 #include "shared/blend.glsl"
 #include "shared/eclipse.glsl"
 #include "shared/penumbra.glsl"
@@ -79,6 +80,28 @@ static void profiles_agree(void **state)
         assert_agree(got.rgba[0], profile_exponential((double)altitude[i], 8000));
         assert_agree(got.rgba[1], profile_tent((double)altitude[i], 25000, 15000));
     }
+    gpu_program_finish(&program);
+}
+
+// Also that dark ground is as much brighter as it is said to be, and that none is brighter than 1.
+static void albedos_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    gpu_program_set_float(&program, "u_wants_blend", 1);
+    const float albedo[] = {0.001f, 0.05f, 0.3f, 0.8f, 1}, paler[] = {0.2f, 1, 1.5f};
+    for (size_t i = 0; i < sizeof albedo / sizeof *albedo; i++) {
+        for (size_t j = 0; j < sizeof paler / sizeof *paler; j++) {
+            gpu_program_set_vec4(&program, "u_angle", (const float[4]){albedo[i], 0, 0, 0});
+            gpu_program_set_vec4(&program, "u_shell", (const float[4]){paler[j], 0, 0, 0});
+            const double wanted = albedo_varied((double)albedo[i], (double)paler[j]);
+            assert_agree(draw(f, &program).rgba[3], wanted);
+            assert_true(paler[j] != 1 || fabs(wanted - (double)albedo[i]) < 1e-12);
+            assert_true(wanted <= 1);
+        }
+    }
+    assert_true(fabs(albedo_varied(0.01, 1.2) / 0.012 - 1) < 0.02);
+    assert_true(fabs(albedo_varied(0.8, 1.2) / 0.8 - 1) < 0.03);
     gpu_program_finish(&program);
 }
 
@@ -320,6 +343,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(phase_functions_agree),
+        cmocka_unit_test(albedos_agree),
         cmocka_unit_test(profiles_agree),
         cmocka_unit_test(maps_agree),
         cmocka_unit_test(maps_from_outside_agree),

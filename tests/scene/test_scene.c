@@ -300,6 +300,14 @@ static void detail_is_read_and_has_defaults(void **state)
     assert_near(s->detail.roughness, 2);
     assert_true(s->detail.albedo_variation == 0);
     assert_near(s->detail.smallest_m, 5);
+    assert_false(s->detail.rock.is_there);
+    trl_scene_destroy(&s);
+    s = parse_with(*state, "\"layers\":",
+                   "\"detail\": {\"rock\": {\"albedo\": 0.2, \"slope_deg\": 45}}, \"layers\":");
+    assert_true(s->detail.rock.is_there);
+    assert_near(s->detail.rock.slope_deg, 45);
+    assert_near(s->detail.rock.feather_deg, 17);
+    assert_near(s->detail.rock.tint, 0.5);
     trl_scene_destroy(&s);
 }
 

@@ -283,7 +283,8 @@ static void test_detail_of_data_agrees_on_both_sides(void **state)
     desc.radius_m = 6e6;
     desc.layers = layers;
     desc.layer_count = 2;
-    desc.detail = (struct surface_detail){1, 0.2, 0.2};
+    desc.detail =
+        (struct surface_detail){.roughness = 1, .albedo_variation = 0.2, .smallest_m = 0.2};
     struct surface s;
     assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
     assert_true(noise_is_there(&s.noise));
@@ -318,7 +319,8 @@ static void test_no_shore_is_above_the_ceiling(void **state)
     desc.radius_m = 6e6;
     desc.layers = layers;
     desc.layer_count = 2;
-    desc.detail = (struct surface_detail){1, 0.2, 0.2};
+    desc.detail =
+        (struct surface_detail){.roughness = 1, .albedo_variation = 0.2, .smallest_m = 0.2};
     struct surface s;
     assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &s), TRL_OK);
     assert_true(noise_is_there(&s.noise) && s.noise.desc.full_height_m > 0);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // The formulas that C and GLSL share, at the arguments of a test.
+#include "shared/albedo.glsl"
 #include "shared/blend.glsl"
 #include "shared/eclipse.glsl"
 #include "shared/penumbra.glsl"
@@ -43,7 +44,7 @@ void main()
                          eclipse_shadow(u_shell.x, u_shell.y, 1737400.0, 0.0046529), 0.0);
     vec4 blends = vec4(blend_layers(u_shell.x, u_angle.x, u_angle.y, u_shell.y),
                        blend_slope(u_shell.x, u_angle.x, u_angle.y, 3.0, 4.0),
-                       blend_neutral(u_shell.x, u_angle.x), 0.0);
+                       blend_neutral(u_shell.x, u_angle.x), albedo_varied(u_angle.x, u_shell.x));
     float anchor_sine = sin(u_place.x);
     float anchor_cosine = cos(u_place.x);
     AxisOffset offset = projection_axis_offset(anchor_sine, anchor_cosine, u_place.y, u_place.z);
