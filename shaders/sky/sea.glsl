@@ -14,6 +14,8 @@ uniform sampler2D u_water; // depth x (1 + roughnesses): reflectance of the wate
 uniform sampler2D u_facets; // normal of the waves that are resolved; mean square slope of the rest
 uniform float u_disc_slope; // what the star's disc adds
 #endif
+uniform sampler2D u_reflection; // of terrain: see sky/reflection.frag
+uniform vec2 u_reflected;       // 1: it covers the sky; its light is added
 uniform vec4 u_sea;        // mean square slope of all, refractive index, white share, its albedo
 uniform float u_sea_texel; // 1 over depths of u_water
 uniform float u_shadowed;  // 1: terrain's shadow is the light's
@@ -32,6 +34,7 @@ struct Sea {
     float passed;    // part of light from everywhere that enters the water, at 60 degrees
     float entered;   // of the star's
     vec4 water;      // of the water below the surface
+    vec4 terrain;    // mirrored, linear sRGB behind the air; part of the mirrored sky that it hides
 };
 
 vec4 water_at(float x, float row)
@@ -43,6 +46,25 @@ vec4 water_at(float x, float row)
 vec4 surface_at(float mu, float level)
 {
     return water_at(sqrt(clamp(mu, 0.0, 1.0)), (1.5 + level) / float(1 + SEA_LEVELS));
+}
+
+// Of every second pixel: between the four around, of those that show water.
+vec4 sea_terrain()
+{
+    ivec2 last = textureSize(u_reflection, 0) - 1;
+    vec2 at = gl_FragCoord.xy * 0.5 - 0.5;
+    vec2 part = fract(at);
+    vec4 sum = vec4(0.0);
+    float weights = 1.0e-6;
+    for (int n = 0; n < 4; n++) {
+        ivec2 offset = ivec2(n & 1, n >> 1);
+        vec4 texel = texelFetch(u_reflection, clamp(ivec2(floor(at)) + offset, ivec2(0), last), 0);
+        vec2 near = mix(1.0 - part, part, vec2(offset));
+        float weight = texel.a < 0.0 ? 0.0 : near.x * near.y + 1.0e-4;
+        sum += weight * texel;
+        weights += weight;
+    }
+    return sum / weights * u_reflected.yyyx;
 }
 
 Sea find_sea(Ray ray, Ground ground)
@@ -76,7 +98,14 @@ Sea find_sea(Ray ray, Ground ground)
     sea.passed = 1.0 - surface_at(0.5, float(SEA_LEVELS - 1)).x;
     sea.entered = 1.0 - surface_at(sea.height, float(SEA_LEVELS - 1)).x;
     sea.water = water_at(ground.depth_code, 0.5 / float(1 + SEA_LEVELS));
+    sea.terrain = sea_terrain();
     return sea;
+}
+
+// Of the light from the water, what terrain has sent.
+vec3 sea_mirrored_terrain(Sea sea)
+{
+    return sea.terrain.rgb * (sea.seen * (1.0 - u_sea.z));
 }
 
 // The mirrored ray in the mean of the facets.
@@ -95,8 +124,8 @@ vec4 sea_radiance(Sea sea, vec4 star, vec4 sky, vec4 mirrored)
 {
     star *= sea.visible;
     vec4 below = star * (sea.height * sea.entered) + sky * sea.passed;
-    vec4 clear =
-        star * sea.glint + mirrored * sea.seen + sea.water * below * ((1.0 - sea.seen) / SHARED_PI);
+    vec4 clear = star * sea.glint + mirrored * (sea.seen * (1.0 - sea.terrain.a)) +
+                 sea.water * below * ((1.0 - sea.seen) / SHARED_PI);
     vec4 white = (star * sea.height + sky) * (u_sea.w / SHARED_PI);
     return mix(clear, white, u_sea.z);
 }

@@ -15,6 +15,7 @@ void sea_water_init(const struct sky_desc *desc, struct sea_water *out)
 void sea_water_finish(struct sea_water *water)
 {
     gpu_texture_finish(&water->texture);
+    reflection_finish(&water->reflection);
     *water = (struct sea_water){0};
 }
 
@@ -60,10 +61,35 @@ trl_result sea_water_prepare(struct sea_water *water, struct gpu *gpu, const str
     return gpu_texture_init(gpu, &desc, &water->texture);
 }
 
+// Ground that does not rise above the water is mirrored by none.
+static bool has_reflection(const struct sky_view *view)
+{
+    return view->highest_m > 0.1;
+}
+
+static void find_surface(const struct sea_water *water, float surface[4])
+{
+    const struct sky_sea *s = water->sea;
+    surface[0] = (float)fmax(s->mean_square_slope + water->disc_slope, 1e-6);
+    surface[1] = (float)s->index;
+    surface[2] = (float)s->white_share;
+    surface[3] = (float)s->white_albedo;
+}
+
+trl_result sea_water_reflect(struct sea_water *water, const struct sky_pixels *pixels,
+                             const struct sky_view *view)
+{
+    float surface[4];
+    find_surface(water, surface);
+    return has_reflection(view) ? reflection_draw(&water->reflection, pixels, view, surface)
+                                : TRL_OK;
+}
+
 void sea_water_set(const struct sea_water *water, const struct sky_view *view,
                    struct gpu_program *program)
 {
-    const struct sky_sea *s = water->sea;
+    float surface[4];
+    find_surface(water, surface);
     gpu_program_set_texture(program, "u_water", &water->texture);
     gpu_program_set_float(program, "u_shadowed", view->is_added == view->moon.is_main ? 1 : 0);
     gpu_program_set_float(program, "u_sea_texel", 1.0f / SKY_SEA_DEPTHS);
@@ -71,6 +97,11 @@ void sea_water_set(const struct sea_water *water, const struct sky_view *view,
         gpu_program_set_texture(program, "u_facets", view->surface.facets);
         gpu_program_set_float(program, "u_disc_slope", (float)water->disc_slope);
     }
-    sky_set_vec4(program, "u_sea", fmax(s->mean_square_slope + water->disc_slope, 1e-6), s->index,
-                 s->white_share, s->white_albedo);
+    gpu_program_set_vec4(program, "u_sea", surface);
+    // Of the light that is added later only the sky's is left out: terrain is mirrored once.
+    const bool is_mirrored = has_reflection(view) && water->reflection.texture.name;
+    const float share[2] = {is_mirrored ? 1 : 0, is_mirrored && !view->is_added ? 1 : 0};
+    gpu_program_set_vec2(program, "u_reflected", share);
+    gpu_program_set_texture(program, "u_reflection",
+                            is_mirrored ? &water->reflection.texture : view->surface.albedo);
 }

@@ -6,11 +6,13 @@
 
 #include "gpu/program.h"
 #include "sky/pixels.h"
+#include "sky/reflection.h"
 
 struct sea_water {
     const struct sky_sea *sea; // NULL: none
     double disc_slope;         // by which the star's disc makes its glint broader
     struct gpu_texture texture;
+    struct reflection reflection; // of terrain, in the last view
 };
 
 void sea_water_init(const struct sky_desc *desc, struct sea_water *out);
@@ -22,6 +24,11 @@ bool sea_water_is_seen(const struct sea_water *water, const struct sky_view *vie
 // Makes the texture where it is not there yet: of light in these bands, or of colours (NULL).
 TRL_MUST_USE trl_result sea_water_prepare(struct sea_water *water, struct gpu *gpu,
                                           const struct bands *bands);
+
+// Finds the terrain that the water mirrors, when all else of the view is drawn; before
+// sea_water_set.
+TRL_MUST_USE trl_result sea_water_reflect(struct sea_water *water, const struct sky_pixels *pixels,
+                                          const struct sky_view *view);
 
 void sea_water_set(const struct sea_water *water, const struct sky_view *view,
                    struct gpu_program *program);

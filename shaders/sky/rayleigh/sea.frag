@@ -47,5 +47,5 @@ void main()
     vec3 whole = max(star_through(0.0), vec3(1.0e-6));
     vec4 mirrored = vec4(sky * max(star_through(view), vec3(0.0)) / whole, 0.0);
     vec4 light = sea_radiance(sea, sent, vec4(0.0), mirrored);
-    out_radiance = vec4(light.rgb * ground.water, 0.0);
+    out_radiance = vec4((light.rgb + sea_mirrored_terrain(sea)) * ground.water, 0.0);
 }

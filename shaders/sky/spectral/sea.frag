@@ -45,9 +45,8 @@ vec4 mirrored_sky(Sea sea, float day)
 }
 
 // In the bands, before the air.
-vec4 sea_light(Ray ray, Ground ground)
+vec4 sea_light(Ray ray, Ground ground, Sea sea)
 {
-    Sea sea = find_sea(ray, ground);
     float altitude =
         centre(clamp((ground.altitude_m - u_ground_light.x) / (u_ground_light.y - u_ground_light.x),
                      0.0, 1.0),
@@ -73,10 +72,12 @@ void main()
 {
     Ray ray;
     Ground ground = find_ground(ray);
-    vec4 light = sea_light(ray, ground) * ground.water;
+    Sea sea = find_sea(ray, ground);
+    vec4 light = sea_light(ray, ground, sea) * ground.water;
     float way = clamp(ground.distance_m, ray.begin_m, max(ray.end_m * 1.2, ground.distance_m)) -
                 ray.begin_m;
     vec2 at = vec2(extinction_map(air_depth(ray, ground.distance_m)), aerial_row(ray));
     light *= exp(-textureLod(u_extinction, at, 0.0) * way);
     out_radiance = join_radiance(light, vec3(0.0));
+    out_radiance.rgb += sea_mirrored_terrain(sea) * ground.water;
 }

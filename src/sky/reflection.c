@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include "sky/reflection.h"
+
+enum {
+    SQUARE = 4, // pixels a side of the next larger square
+    LEVELS = 4, // sizes of squares
+    LAND_WIDTH = 4,
+    LAND_ROWS = 32 // of rectangles with the land's mean, in the picture
+};
+
+static void finish_targets(struct reflection *r)
+{
+    gpu_target_finish(&r->nearest_target);
+    gpu_target_finish(&r->near_target);
+    gpu_target_finish(&r->land_target);
+    gpu_target_finish(&r->single_target);
+    gpu_target_finish(&r->target);
+    gpu_texture_finish(&r->nearest);
+    gpu_texture_finish(&r->near);
+    gpu_texture_finish(&r->land);
+    gpu_texture_finish(&r->single);
+    gpu_texture_finish(&r->weight);
+    gpu_texture_finish(&r->texture);
+    r->width = r->height = 0;
+}
+
+static void finish_programs(struct reflection *r)
+{
+    gpu_program_finish(&r->from_surface);
+    gpu_program_finish(&r->from_nearest);
+    gpu_program_finish(&r->land_of);
+    gpu_program_finish(&r->follow);
+    gpu_program_finish(&r->filter);
+}
+
+void reflection_finish(struct reflection *reflection)
+{
+    finish_targets(reflection);
+    finish_programs(reflection);
+    *reflection = (struct reflection){0};
+}
+
+static trl_result fit_programs(struct reflection *r, struct gpu *gpu, bool has_facets)
+{
+    if (r->follow.name && r->has_facets == has_facets) {
+        return TRL_OK;
+    }
+    static const char *const surface[] = {"SURFACE"}, *const facets[] = {"FACETS"};
+    struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+                                    .fragment = "sky/reflection_near.frag",
+                                    .defines = surface};
+    finish_programs(r);
+    r->has_facets = has_facets;
+    trl_result result = gpu_program_init(gpu, &desc, &r->from_nearest);
+    desc.define_count = 1;
+    if (result == TRL_OK) {
+        result = gpu_program_init(gpu, &desc, &r->from_surface);
+    }
+    desc.fragment = "sky/reflection_land.frag";
+    desc.define_count = 0;
+    if (result == TRL_OK) {
+        result = gpu_program_init(gpu, &desc, &r->land_of);
+    }
+    desc.fragment = "sky/reflection.frag";
+    desc.defines = facets;
+    desc.define_count = has_facets ? 1 : 0;
+    if (result == TRL_OK) {
+        result = gpu_program_init(gpu, &desc, &r->follow);
+    }
+    desc.fragment = "sky/reflection_filter.frag";
+    return result == TRL_OK ? gpu_program_init(gpu, &desc, &r->filter) : result;
+}
+
+static trl_result make_target(struct gpu *gpu, struct gpu_texture *textures[2],
+                              struct gpu_texture_desc *desc, struct gpu_target *target)
+{
+    struct gpu_target_desc colors = {.label = desc->label};
+    trl_result result = TRL_OK;
+    for (int i = 0; i < 2 && textures[i] && result == TRL_OK; i++) {
+        colors.colors[colors.color_count++].texture = textures[i];
+        result = gpu_texture_init(gpu, desc, textures[i]);
+        desc->format = GPU_FORMAT_R32F; // of a second one
+    }
+    return result == TRL_OK ? gpu_target_init(gpu, &colors, target) : result;
+}
+
+static uint32_t count_squares(uint32_t pixels)
+{
+    return (pixels + SQUARE - 1) / SQUARE;
+}
+
+// Where squares of 4^level pixels are in `near`: sky/reflection.frag knows it too. The larger ones
+// lie in a row above the pixels.
+static struct gpu_rect find_squares(const struct reflection *r, int level)
+{
+    struct gpu_rect rect = {0, 0, r->width, r->height};
+    for (int i = 0; i < level; i++) {
+        rect.x += i > 0 ? rect.width : 0;
+        rect.y = r->height;
+        rect.width = count_squares(rect.width);
+        rect.height = count_squares(rect.height);
+    }
+    return rect;
+}
+
+static trl_result make_near(struct reflection *r, struct gpu *gpu)
+{
+    const struct gpu_rect last = find_squares(r, LEVELS - 1);
+    struct gpu_texture *nearest[2] = {&r->nearest}, *near[2] = {&r->near};
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "nearest land";
+    desc.format = GPU_FORMAT_R32F;
+    desc.filter = GPU_FILTER_NEAREST;
+    desc.width = count_squares(r->width);
+    desc.height = count_squares(r->height);
+    const trl_result result = make_target(gpu, nearest, &desc, &r->nearest_target);
+    desc.height += r->height;
+    desc.width = last.x + last.width > r->width ? last.x + last.width : r->width;
+    return result == TRL_OK ? make_target(gpu, near, &desc, &r->near_target) : result;
+}
+
+static uint32_t find_land_height(const struct reflection *r)
+{
+    return (r->height + LAND_ROWS - 1) / LAND_ROWS;
+}
+
+static trl_result make_mirrored(struct reflection *r, struct gpu *gpu)
+{
+    struct gpu_texture *land[2] = {&r->land}, *single[2] = {&r->single, &r->weight},
+                       *texture[2] = {&r->texture};
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    desc.label = "radiance of land";
+    desc.format = GPU_FORMAT_RGBA32F;
+    desc.filter = GPU_FILTER_NEAREST;
+    desc.width = (r->width + LAND_WIDTH - 1) / LAND_WIDTH;
+    desc.height = (r->height + find_land_height(r) - 1) / find_land_height(r);
+    trl_result result = make_target(gpu, land, &desc, &r->land_target);
+    desc.label = "reflection";
+    desc.width = (r->width + 1) / 2;
+    desc.height = (r->height + 1) / 2;
+    desc.format = GPU_FORMAT_RGBA32F;
+    if (result == TRL_OK) {
+        result = make_target(gpu, single, &desc, &r->single_target);
+    }
+    desc.format = GPU_FORMAT_RGBA32F;
+    return result == TRL_OK ? make_target(gpu, texture, &desc, &r->target) : result;
+}
+
+static trl_result fit_targets(struct reflection *r, struct gpu *gpu, const struct gpu_target *shown)
+{
+    if (r->width == shown->width && r->height == shown->height) {
+        return TRL_OK;
+    }
+    finish_targets(r);
+    r->width = shown->width;
+    r->height = shown->height;
+    trl_result result = make_near(r, gpu);
+    if (result == TRL_OK) {
+        result = make_mirrored(r, gpu);
+    }
+    if (result != TRL_OK) {
+        finish_targets(r);
+    }
+    return result;
+}
+
+static trl_result draw_squares(struct gpu_program *program, const struct gpu_target *target,
+                               struct gpu_rect rect, uint32_t side)
+{
+    const float square[3] = {(float)rect.x, (float)rect.y, (float)side};
+    const struct gpu_pass pass = {.target = target, .viewport = rect};
+    gpu_program_set_vec3(program, "u_square", square);
+    gpu_pass_begin(program->gpu, &pass);
+    return gpu_draw_fullscreen(program, "nearest land");
+}
+
+static trl_result draw_nearest(struct reflection *r, const struct sky_view *view)
+{
+    struct gpu_rect rect = {0, 0, r->nearest.width, r->nearest.height};
+    gpu_program_set_texture(&r->from_surface, "u_position", view->surface.position);
+    gpu_program_set_texture(&r->from_surface, "u_albedo", view->surface.albedo);
+    sky_set_vec3(&r->from_surface, "u_forward", view->camera->forward);
+    trl_result result = draw_squares(&r->from_surface, &r->nearest_target, rect, SQUARE);
+    gpu_program_set_texture(&r->from_nearest, "u_nearest", &r->nearest);
+    uint32_t side = 1;
+    for (int level = 0; level < LEVELS && result == TRL_OK; level++) {
+        rect = find_squares(r, level);
+        result = draw_squares(level == 0 ? &r->from_surface : &r->from_nearest, &r->near_target,
+                              rect, side);
+        side *= level == 0 ? 1 : SQUARE;
+    }
+    return result;
+}
+
+static trl_result draw_land(struct reflection *r, const struct sky_view *view)
+{
+    const float picture[4] = {(float)r->width, (float)r->height, LAND_WIDTH,
+                              (float)find_land_height(r)};
+    const struct gpu_pass pass = {.target = &r->land_target};
+    gpu_program_set_texture(&r->land_of, "u_radiance", view->target->colors[0].texture);
+    gpu_program_set_texture(&r->land_of, "u_near", &r->near);
+    gpu_program_set_vec4(&r->land_of, "u_picture", picture);
+    gpu_pass_begin(r->land_of.gpu, &pass);
+    return gpu_draw_fullscreen(&r->land_of, "radiance of land");
+}
+
+static trl_result draw_mirrored(struct reflection *r, const struct sky_pixels *pixels,
+                                const struct sky_view *view, const float sea[4])
+{
+    struct gpu_program *program = &r->follow;
+    sky_pixels_set_view(pixels, program, view);
+    gpu_program_set_texture(program, "u_position", view->surface.position);
+    gpu_program_set_texture(program, "u_albedo", view->surface.albedo);
+    gpu_program_set_texture(program, "u_radiance", view->target->colors[0].texture);
+    const float rectangle[2] = {LAND_WIDTH, (float)find_land_height(r)};
+    gpu_program_set_texture(program, "u_near", &r->near);
+    gpu_program_set_texture(program, "u_land", &r->land);
+    gpu_program_set_vec2(program, "u_rectangle", rectangle);
+    if (view->surface.facets) {
+        gpu_program_set_texture(program, "u_facets", view->surface.facets);
+    }
+    gpu_program_set_vec4(program, "u_sea", sea);
+    const struct gpu_pass pass = {.target = &r->single_target};
+    gpu_pass_begin(pixels->gpu, &pass);
+    return gpu_draw_fullscreen(program, "mirrored terrain");
+}
+
+static trl_result draw_filtered(struct reflection *r, const struct sky_pixels *pixels,
+                                const struct sky_view *view, const float sea[4])
+{
+    struct gpu_program *program = &r->filter;
+    sky_pixels_set_view(pixels, program, view);
+    gpu_program_set_texture(program, "u_reflection", &r->single);
+    gpu_program_set_texture(program, "u_weight", &r->weight);
+    if (view->surface.facets) {
+        gpu_program_set_texture(program, "u_facets", view->surface.facets);
+    }
+    gpu_program_set_vec4(program, "u_sea", sea);
+    const struct gpu_pass pass = {.target = &r->target};
+    gpu_pass_begin(pixels->gpu, &pass);
+    return gpu_draw_fullscreen(program, "mirrored terrain by all facets");
+}
+
+trl_result reflection_draw(struct reflection *reflection, const struct sky_pixels *pixels,
+                           const struct sky_view *view, const float sea[4])
+{
+    trl_result result = fit_programs(reflection, pixels->gpu, view->surface.facets);
+    if (result == TRL_OK) {
+        result = fit_targets(reflection, pixels->gpu, view->target);
+    }
+    if (result == TRL_OK) {
+        result = draw_nearest(reflection, view);
+    }
+    if (result == TRL_OK) {
+        result = draw_land(reflection, view);
+    }
+    if (result == TRL_OK) {
+        result = draw_mirrored(reflection, pixels, view, sea);
+    }
+    return result == TRL_OK ? draw_filtered(reflection, pixels, view, sea) : result;
+}

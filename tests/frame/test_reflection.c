@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Terrain that water mirrors: a wall that stands in flat water, whose image geometry tells.
+#include "fixture.h"
+#include "shared/fresnel.glsl"
+#include "sky/reflection.h"
+
+#include <math.h>
+
+// The eye is 10 m above the water and looks level at a wall 100 m away and 20 m high. A row whose
+// way falls by m meets the water at 10 m / m, and its mirrored ray the wall at 100 m * m - 10 m.
+enum { SIZE = 64, HALF = SIZE / 2 };
+static const double EYE_M = 10, WALL_M = 100, HIGH_M = 20, TAN_HALF = 0.5;
+static const float AIR = 1, WALL = 5, SKY = 100;
+
+static double slope_at(uint32_t row, uint32_t rows)
+{
+    return TAN_HALF * ((2.0 * row + 1) / rows - 1);
+}
+
+static bool is_water(uint32_t y)
+{
+    return slope_at(y, SIZE) * WALL_M < -EYE_M;
+}
+
+static bool is_sky(uint32_t y)
+{
+    return slope_at(y, SIZE) * WALL_M > HIGH_M - EYE_M;
+}
+
+static struct color paint_radiance(uint32_t x, uint32_t y, const void *user)
+{
+    (void)x;
+    (void)user;
+    const float value = is_water(y) ? AIR : is_sky(y) ? SKY : WALL;
+    return (struct color){value, value, value};
+}
+
+// Axes: x up from the planet's centre, y to the right, z away from the eye.
+static void fill_surface(float *position, float *albedo)
+{
+    for (uint32_t i = 0; i < SIZE * SIZE; i++) {
+        const double across = slope_at(i % SIZE, SIZE), along = slope_at(i / SIZE, SIZE);
+        const bool water = is_water(i / SIZE);
+        const double distance = water ? -EYE_M / along : WALL_M;
+        position[4 * i] = (float)(distance * along);
+        position[4 * i + 1] = (float)(distance * across);
+        position[4 * i + 2] = (float)distance;
+        position[4 * i + 3] = is_sky(i / SIZE) ? -1e9f : (float)(EYE_M + distance * along);
+        albedo[4 * i + 3] = water ? 1 : 0;
+    }
+}
+
+static struct gpu_texture make_texture(struct fixture *f, const float *texels)
+{
+    struct gpu_texture_desc desc = gpu_texture_desc_default();
+    struct gpu_texture texture;
+    desc.label = "surface";
+    desc.format = GPU_FORMAT_RGBA32F;
+    desc.filter = GPU_FILTER_NEAREST;
+    desc.width = desc.height = SIZE;
+    desc.data = texels;
+    assert_int_equal(gpu_texture_init(f->gpu, &desc, &texture), TRL_OK);
+    return texture;
+}
+
+static void draw(struct fixture *f, float mean_square_slope, float texels[4 * HALF * HALF])
+{
+    static float position_texels[4 * SIZE * SIZE], albedo_texels[4 * SIZE * SIZE];
+    fill_surface(position_texels, albedo_texels);
+    struct gpu_texture position = make_texture(f, position_texels);
+    struct gpu_texture albedo = make_texture(f, albedo_texels);
+    struct gpu_texture radiance = fixture_paint(f, SIZE, SIZE, paint_radiance, NULL);
+    const struct gpu_target_desc desc = {
+        .label = "picture", .color_count = 1, .colors[0].texture = &radiance};
+    struct gpu_target target;
+    assert_int_equal(gpu_target_init(f->gpu, &desc, &target), TRL_OK);
+    const struct sky_pixels pixels = {
+        .gpu = f->gpu, .ground_radius_m = 6371000, .top_radius_m = 6471000};
+    const struct camera camera = {.position_m = {6371000 + EYE_M, 0, 0},
+                                  .forward = {0, 0, 1},
+                                  .right = {0, 1, 0},
+                                  .up = {1, 0, 0},
+                                  .sun_direction = {1, 0, 0},
+                                  .tan_half_fov_x = TAN_HALF,
+                                  .tan_half_fov_y = TAN_HALF};
+    const struct sky_view view = {.camera = &camera,
+                                  .surface = {.position = &position, .albedo = &albedo},
+                                  .target = &target};
+    const float sea[4] = {mean_square_slope, 1.34f, 0, 0};
+    struct reflection reflection = {0};
+    assert_int_equal(reflection_draw(&reflection, &pixels, &view, sea), TRL_OK);
+    const struct gpu_region region = gpu_texture_region(&reflection.texture, 0);
+    assert_int_equal(gpu_texture_read(&reflection.texture, &region, texels), TRL_OK);
+    reflection_finish(&reflection);
+    gpu_target_finish(&target);
+    gpu_texture_finish(&radiance);
+    gpu_texture_finish(&albedo);
+    gpu_texture_finish(&position);
+}
+
+static void calm_water_mirrors_the_wall_where_geometry_says(void **state)
+{
+    static float texels[4 * HALF * HALF];
+    draw(*state, 1e-8f, texels);
+    int mirrored = 0, open = 0;
+    for (uint32_t y = 0; y < HALF; y++) {
+        const float *texel = texels + 4 * ((size_t)y * HALF + HALF / 2);
+        const double fall = -slope_at(y, HALF);
+        const double height_m = WALL_M * fall - EYE_M;
+        // Off the shore and the wall's upper edge by more than a row of either picture: 3 m.
+        if (height_m < -4) {
+            assert_true(texel[3] < 0); // no water
+        } else if (height_m > 4 && height_m < HIGH_M - 4) {
+            assert_true(fabs((double)texel[3] - 1) < 0.01);
+            assert_true(fabs((double)(texel[0] - (WALL - AIR))) < 0.05);
+            mirrored++;
+        } else if (height_m > HIGH_M + 4) {
+            assert_true(fabs((double)texel[3]) < 0.01 && fabs((double)texel[0]) < 0.05);
+            open++;
+        }
+    }
+    assert_true(mirrored >= 3 && open >= 3);
+}
+
+// Of a row of the half picture: how large facets of all slopes along the view are as they are seen,
+// times their reflectance; all of them, and those that mirror the wall.
+struct facets {
+    double all, wall;
+};
+static struct facets find_facets(uint32_t row, double mean_square_slope)
+{
+    enum { FACETS = 1000 };
+    const double fall = -slope_at(2 * row, SIZE); // the first of its rows
+    struct facets f = {0};
+    for (int i = 0; i < FACETS; i++) {
+        const double share = (i + 0.5) / FACETS;
+        const double slope = log(share / (1 - share)) / 1.702 * sqrt(0.5 * mean_square_slope);
+        const double seen = sin(atan(fall) + atan(slope));
+        const double rise_rad = atan(fall) + 2 * atan(slope);
+        if (seen > 0 && rise_rad > 0) {
+            const double weight = seen * fresnel_reflectance(seen, 1.34);
+            const bool is_wall =
+                rise_rad < 0.5 * M_PI && tan(rise_rad) * (WALL_M - EYE_M / fall) < HIGH_M;
+            f.wall += is_wall ? weight : 0;
+            f.all += weight;
+        }
+    }
+    return f;
+}
+
+// The mean of the rows that reflection_filter.frag takes together.
+static double find_covered(uint32_t row, double mean_square_slope)
+{
+    static const double SHARES[5] = {0.5, 1, 1, 1, 0.5};
+    double all = 0, wall = 0;
+    for (uint32_t i = 0; i < 5; i++) {
+        const struct facets f = find_facets(row + i > 2 ? row + i - 2 : 0, mean_square_slope);
+        all += SHARES[i] * f.all;
+        wall += SHARES[i] * f.wall;
+    }
+    return wall / all;
+}
+
+static void rough_water_draws_the_image_out(void **state)
+{
+    static float texels[4 * HALF * HALF];
+    const float mean_square_slope = 0.02f;
+    draw(*state, mean_square_slope, texels);
+    for (uint32_t y = 0; y < HALF / 2 - 6; y++) {
+        const float *texel = texels + 4 * ((size_t)y * HALF + HALF / 2);
+        const double covered = find_covered(y, (double)mean_square_slope);
+        // 32 facets where the law has all, 8 of them in a row: one of those is 0.03 to 0.1.
+        assert_true(fabs((double)texel[3] - covered) < 0.06);
+        assert_true(fabs((double)(texel[0] - (WALL - AIR) * texel[3])) < 0.01);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(calm_water_mirrors_the_wall_where_geometry_says),
+        cmocka_unit_test(rough_water_draws_the_image_out),
+    };
+    return cmocka_run_group_tests(tests, fixture_set_up_gpu, fixture_tear_down);
+}
