@@ -21,7 +21,7 @@ data=${TERRELLA_DATA:-${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}/terrella/data}
 sources=${TERRELLA_DATA_SOURCES:-$tools/data-sources.txt}
 archives=$data/packages
 outputs=(elevation.tif elevation-north.tif elevation-south.tif water.tif colorado.tif colour.tif colour-north.tif
-    colour-south.tif lights.tif)
+    colour-south.tif lights.tif snow.tif)
 
 die() {
     echo "data: $*" >&2

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Colour, water and normal of the ground at a place: part of terrain/surface.frag.
-#include "shared/albedo.glsl"
 #ifdef HAS_BIOMES
 #include "terrain/biomes.glsl"
 #endif
@@ -86,7 +85,17 @@ Look find_look(Tangent t, LookPlace p)
         place.tone = 0.0;
     }
 #endif
+#ifdef HAS_COVERS
+    float variance = noise_height_variance(base.view);
+    cover = Cover((r.height - base.height) * inversesqrt(max(variance, 1e-6)),
+                  clamp(r.unseen_height2 / max(variance, 1e-6), 0.0, 1.0), sqrt(variance),
+                  base.view.texel);
+#endif
     look.root = terrain_albedo(sqrt(clamp(albedo, 0.0, 1.0)), t.ground, t.log2_footprint);
+#ifdef HAS_COVERS
+    cover.height = 0.0;
+    cover.hidden = 1.0;
+#endif
     look.region =
         terrain_albedo(sqrt(clamp(region, 0.0, 1.0)), t.ground, max(t.log2_footprint, u_region));
 #ifndef HAS_GROUND

@@ -149,6 +149,13 @@ bool noise_is_over(int i, int end, NoiseView view)
     return i >= end || u_noise_size[i].x - view.footprint < 1.0 || view.amplitude < 1e-3;
 }
 
+// Of the heights that all octaves together add to data, m^2.
+float noise_height_variance(NoiseView view)
+{
+    int first = clamp(int(ceil(u_noise_size[0].x - view.texel - 1.5)), 0, u_noise_ends.z - 1);
+    return RELIEF_HEIGHT2 * pow2(view.amplitude) * u_noise_size[first].w;
+}
+
 // What is not seen of an octave, which made the height out of `before`, counts by its variances.
 Relief noise_hide(Relief r, int i, float size, float before, NoiseView view)
 {

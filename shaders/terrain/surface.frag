@@ -5,7 +5,7 @@
 // validate: ELEVATION_COUNT 0; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0
 // validate: ELEVATION_COUNT 4; COLOUR_COUNT 4; WATER_COUNT 4; LIGHTS_COUNT 4; NORMAL_COUNT 4
 // validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; NO_FLOAT_LINEAR
-// validate: ELEVATION_COUNT 2; COLOUR_COUNT 1; WATER_COUNT 1; LIGHTS_COUNT 1; HAS_NOISE
+// validate: ELEVATION_COUNT 2; COLOUR_COUNT 2; WATER_COUNT 1; LIGHTS_COUNT 1; HAS_COVERS; HAS_NOISE
 // validate: ELEVATION_COUNT 1; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_BIOMES
 // validate: ELEVATION_COUNT 3; COLOUR_COUNT 3; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_POLAR; HAS_MODES
 // validate: ELEVATION_COUNT 1; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; NORMAL_COUNT 1
@@ -16,6 +16,7 @@
 #define NORMAL_COUNT 0
 #endif
 #define HAS_ROCK
+#include "shared/albedo.glsl"
 #include "terrain/layers.glsl"
 #include "terrain/shadow.glsl"
 
@@ -87,12 +88,38 @@ layout(location = 1) out vec4 o_normal_sun;
 layout(location = 2) out vec4 o_lights;
 layout(location = 3) out vec4 o_region;
 
+#ifdef HAS_COVERS
+#define COVER_MODE 5.0 // of u_colour_modes: the alpha is a mask's
+
+// How a place lies among the heights that are made up around it: standard deviations above their
+// mean; what of their variance a pixel hides; the deviation in m. log2 of the texels of data, m.
+struct Cover {
+    float height, hidden, deviation, log2_texel;
+};
+
+Cover cover;
+
+// The part of a mask's share that lies here. What is below finer texels than the data's is not
+// known.
+float cover_within(float share, float log2_texel)
+{
+    float strength = albedo_cover_strength(cover.deviation) *
+                     clamp(1.0 + log2_texel - cover.log2_texel, 0.0, 1.0);
+    return strength > 0.01 ? albedo_cover(share, cover.height, strength, cover.hidden) : share;
+}
+#endif
+
 // Colour (as square roots) over what lies below, by the layer's alpha.
 vec3 layer_over_picture(vec3 below, sampler2D picture, LayerFrame frame, float mode, Ground g,
                         float log2_footprint)
 {
     vec3 at = layer_locate(frame, g);
     vec4 c = layer_fetch(picture, frame, at.xy, log2_footprint - frame.texel.z);
+#ifdef HAS_COVERS
+    bool is_cover = mode > COVER_MODE - 0.5;
+    c.w = is_cover ? cover_within(c.w, frame.texel.z) : c.w;
+    mode = is_cover ? 0.0 : mode;
+#endif
     vec3 value = c.xyz;
 #ifdef HAS_MODES
     bool adds = mode > 0.5 && mode < 1.5; // light, not its roots

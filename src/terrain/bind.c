@@ -13,7 +13,8 @@ static const char *const KIND_DEFINES[SURFACE_KIND_COUNT] = {
     "ELEVATION_COUNT", "COLOUR_COUNT", "WATER_COUNT", "LIGHTS_COUNT", "NORMAL_COUNT"};
 static const char *const KIND_UNIFORMS[SURFACE_KIND_COUNT] = {"u_elevation", "u_colour", "u_water",
                                                               "u_lights", "u_normal"};
-enum { FRAME_ROWS = 5 }; // vec4 of a layer; the last one only where there are tiles
+static const float COVER_MODE = 5; // as in terrain/surface.frag
+enum { FRAME_ROWS = 5 };           // vec4 of a layer; the last one only where there are tiles
 
 static void add_define(struct surface_defines *out, const char *name)
 {
@@ -26,7 +27,7 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
                          struct surface_defines *out)
 {
     *out = (struct surface_defines){.count = 0};
-    bool has_polar = false, has_modes = false, has_gaps = false;
+    bool has_polar = false, has_modes = false, has_gaps = false, has_covers = false;
     for (size_t k = 0; k < SURFACE_KIND_COUNT; k++) {
         char text[SURFACE_DEFINE_LENGTH];
         const size_t count =
@@ -36,6 +37,7 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
         for (size_t i = 0; i < surface->counts[k]; i++) {
             has_polar = has_polar || surface->layers[k][i].frame.pole != 0;
             has_modes = has_modes || surface->layers[k][i].mode != BLEND_OVER;
+            has_covers = has_covers || surface->layers[k][i].cover.is_there;
             has_gaps = has_gaps || surface->layers[k][i].heights.coarser;
         }
     }
@@ -47,6 +49,9 @@ void surface_get_defines(const struct surface *surface, size_t elevations,
     }
     if (has_modes) {
         add_define(out, "HAS_MODES");
+    }
+    if (has_covers) {
+        add_define(out, "HAS_COVERS");
     }
     if (has_gaps) {
         add_define(out, "HAS_GAPS");
@@ -136,7 +141,7 @@ static void bind_kind(const struct binding *binding, enum surface_kind kind,
     for (size_t i = 0; i < selection->counts[kind]; i++) {
         const struct terrain_layer *layer = &surface->layers[kind][selection->indices[kind][i]];
         describe_layer(layer, binding->anchor, surface->radius_m, &rows[i * row_count]);
-        modes[i] = (float)layer->mode;
+        modes[i] = layer->cover.is_there ? COVER_MODE : (float)layer->mode;
         gaps[i] = layer->heights.coarser ? 1.0f : 0.0f;
         snprintf(name, sizeof name, "%s%zu", KIND_UNIFORMS[kind], i);
         gpu_program_set_texture(program, name,

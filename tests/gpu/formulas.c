@@ -105,6 +105,44 @@ static void albedos_agree(void **state)
     gpu_program_finish(&program);
 }
 
+// Of a standard normal variable.
+static double mean_cover(double share, double strength, double hidden)
+{
+    double sum = 0, weights = 0;
+    for (double z = -5; z <= 5; z += 0.01) {
+        const double weight = exp(-z * z / 2);
+        sum += weight * albedo_cover(share, z * sqrt(1 - hidden), strength, hidden);
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+// Also that the mean over all heights is the share, however much of them is seen: within 0.02,
+// which is the error of the logistic function's mean and of the clamped ends.
+static void covers_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    gpu_program_set_float(&program, "u_wants_blend", 1);
+    gpu_program_set_float(&program, "u_wants_cover", 1);
+    const float share[] = {0, 0.1f, 0.5f, 0.9f, 1};
+    for (size_t i = 0; i < sizeof share / sizeof *share; i++) {
+        const double s = (double)share[i];
+        gpu_program_set_vec4(&program, "u_angle", (const float[4]){share[i], 0.7f, 0, 0});
+        gpu_program_set_vec4(&program, "u_shell", (const float[4]){2, 0.25f, 0, 0});
+        const double wanted = albedo_cover(s, (double)0.7f, 2, 0.25);
+        assert_true(fabs((double)draw(f, &program).rgba[1] - wanted) < 1e-5);
+        for (double hidden = 0; hidden <= 1; hidden += 0.5) {
+            const double mean = mean_cover(s, 3, hidden);
+            if (!(fabs(mean - s) < 0.02)) {
+                fail_msg("a share of %.2f becomes %.4f, %.1f hidden", s, mean, hidden);
+            }
+        }
+    }
+    assert_true(albedo_cover(0.5, 1, 3, 0) > 0.9 && albedo_cover(0.5, -1, 3, 0) < 0.1);
+    gpu_program_finish(&program);
+}
+
 // Coordinates are compared as they are used: the finest table has 256 texels, and this is a
 // twentieth of one. Roots near 0 leave a float no more.
 static void assert_same_texel(float got, double wanted)
@@ -344,6 +382,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(phase_functions_agree),
         cmocka_unit_test(albedos_agree),
+        cmocka_unit_test(covers_agree),
         cmocka_unit_test(profiles_agree),
         cmocka_unit_test(maps_agree),
         cmocka_unit_test(maps_from_outside_agree),

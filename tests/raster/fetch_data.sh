@@ -73,7 +73,7 @@ make_prepare() {
 #!/bin/bash
 set -e
 grep -q heights "$1/usr/share/t/a.txt"
-for name in elevation elevation-north elevation-south water colorado colour colour-north colour-south lights; do echo "$name" >"$2/$name.tif"; done
+for name in elevation elevation-north elevation-south water colorado colour colour-north colour-south lights snow; do echo "$name" >"$2/$name.tif"; done
 echo made >>"$2/../made"
 END
     chmod +x prepare

@@ -19,7 +19,7 @@ enum { EXIT_SKIP = 77 };
 
 struct earth {
     trl_context *ctx;
-    struct raster_grid elevation, water, colorado;
+    struct raster_grid elevation, water, snow, colorado;
     bool has_lakes; // only the mask from npm shows inland waters (docs/data.md)
 };
 
@@ -44,6 +44,7 @@ static int set_up(void **state)
     }
     load(earth.ctx, "elevation.tif", &earth.elevation);
     load(earth.ctx, "water.tif", &earth.water);
+    load(earth.ctx, "snow.tif", &earth.snow);
     load(earth.ctx, "colorado.tif", &earth.colorado);
     char *mask = mem_printf(earth.ctx, "%s/packages/three-globe@2.45.2.tgz",
                             trl_context_data_dir(earth.ctx));
@@ -58,6 +59,7 @@ static int tear_down(void **state)
     struct earth *earth = *state;
     raster_grid_finish(&earth->elevation);
     raster_grid_finish(&earth->water);
+    raster_grid_finish(&earth->snow);
     raster_grid_finish(&earth->colorado);
     trl_context_destroy(&earth->ctx);
     return 0;
@@ -152,6 +154,29 @@ static void slopes_have_no_terraces(void **state)
     assert_true(jumps * 30 < cells); // real breaks of the land, such as river bluffs, remain
 }
 
+// Ice and high mountains, not deserts, their grey coasts, or the sea.
+static void snow_lies_where_it_is_known(void **state)
+{
+    const struct earth *earth = *state;
+    const struct raster_grid *snow = &earth->snow;
+    assert_true(value_at(snow, 72, -40) > 250 && value_at(snow, -80, 90) > 220);
+    static const double BARE[][2] = {{23, 12},   {-25, 133}, {27.3, 35.6}, {-23, 14.5},
+                                     {20, 38.3}, {-3, -62},  {50, -30},    {26, 82}};
+    for (size_t i = 0; i < sizeof BARE / sizeof *BARE; i++) {
+        assert_true(value_at(snow, BARE[i][0], BARE[i][1]) == 0);
+    }
+    double sums[2] = {0}, counts[2] = {0}; // of the ground about Everest below and above 5500 m
+    for (double lat = 27.5; lat < 28.4; lat += 0.05) {
+        for (double lon = 86.2; lon < 87.5; lon += 0.05) {
+            const bool is_high = value_at(&earth->elevation, lat, lon) > 5500;
+            sums[is_high] += value_at(snow, lat, lon) / 255;
+            counts[is_high]++;
+        }
+    }
+    print_message("snow below 5500 m %.3f, above %.3f\n", sums[0] / counts[0], sums[1] / counts[1]);
+    assert_true(sums[1] / counts[1] > 3 * sums[0] / counts[0]);
+}
+
 static void the_inset_is_where_it_should_be(void **state)
 {
     const struct earth *earth = *state;
@@ -186,6 +211,7 @@ int main(void)
         cmocka_unit_test(known_places_have_their_height),
         cmocka_unit_test(the_coast_is_where_the_height_is_zero),
         cmocka_unit_test(slopes_have_no_terraces),
+        cmocka_unit_test(snow_lies_where_it_is_known),
         cmocka_unit_test(the_inset_is_where_it_should_be),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -21,6 +21,7 @@ enum { CELL_LAND = 0, CELL_INLAND_WATER = 1, CELL_OCEAN = 2 };
 
 struct globe {
     const struct places *places;
+    const struct picture *snow;
     struct land land;
     float *etopo;
     struct picture mask; // 255: water; or a colour picture to guess it from
@@ -276,6 +277,9 @@ static trl_result write_globe(const struct globe *globe)
         g.unit = NULL;
         result = geotiff_write(globe->places, &g);
     }
+    if (result == TRL_OK) {
+        result = snow_write(globe->places, globe->snow, globe->elevation);
+    }
     return result;
 }
 
@@ -307,10 +311,10 @@ static trl_result merge_globe(struct globe *globe)
     return write_globe(globe);
 }
 
-trl_result earth_prepare_globe(const struct places *places)
+trl_result earth_prepare_globe(const struct places *places, const struct picture *snow)
 {
     const trl_context *ctx = places->ctx;
-    struct globe globe = {.places = places};
+    struct globe globe = {.places = places, .snow = snow};
     globe.etopo = mem_alloc(ctx, (size_t)ETOPO_COLUMNS * ETOPO_ROWS, sizeof(float));
     globe.cells = mem_alloc(ctx, CELLS, 1);
     globe.distance = mem_alloc(ctx, CELLS, 1);

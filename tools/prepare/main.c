@@ -12,11 +12,16 @@
 
 static trl_result prepare_earth(const struct places *places)
 {
-    trl_result result = earth_prepare_pictures(places);
+    struct picture snow = {0};
+    trl_result result = earth_prepare_pictures(places, &snow);
     if (result == TRL_OK) {
         result = earth_prepare_colorado(places);
     }
-    return result == TRL_OK ? earth_prepare_globe(places) : result;
+    if (result == TRL_OK) {
+        result = earth_prepare_globe(places, &snow);
+    }
+    picture_finish(places, &snow);
+    return result;
 }
 
 static const struct body {

@@ -63,7 +63,8 @@ static trl_result read_world_8k(const struct places *places, struct picture *out
     return result;
 }
 
-static trl_result prepare_colour(const struct places *places)
+// Around the poles, where there is hardly anything else, the picture keeps its snow.
+static trl_result prepare_colour(const struct places *places, struct picture *snow)
 {
     struct picture picture = {0};
     trl_result result;
@@ -74,12 +75,15 @@ static trl_result prepare_colour(const struct places *places)
         result = picture_read(places, has_4k ? BLUE_MARBLE_4K : BLUE_MARBLE_SMALL, &picture);
     }
     if (result == TRL_OK) {
-        result = picture_write(places, "colour.tif", &picture);
-    }
-    if (result == TRL_OK) {
         const struct globe_values globe = {picture.width, picture.height, picture.bands, NULL,
                                            picture.pixels};
         result = polar_prepare(places, "earth", "colour", &globe);
+    }
+    if (result == TRL_OK) {
+        result = snow_take_out(places, &picture, snow);
+    }
+    if (result == TRL_OK) {
+        result = picture_write(places, "colour.tif", &picture);
     }
     picture_finish(places, &picture);
     return result;
@@ -137,9 +141,10 @@ static trl_result prepare_clouds(const struct places *places)
     return result;
 }
 
-trl_result earth_prepare_pictures(const struct places *places)
+trl_result earth_prepare_pictures(const struct places *places, struct picture *snow)
 {
-    trl_result result = prepare_colour(places);
+    *snow = (struct picture){0};
+    trl_result result = prepare_colour(places, snow);
     if (result == TRL_OK) {
         result = prepare_lights(places);
     }

@@ -83,12 +83,22 @@ struct land {
 TRL_MUST_USE trl_result land_read(const struct places *places, struct land *out);
 void land_finish(const struct places *places, struct land *land);
 
-// Elevation and open water of the whole globe.
-TRL_MUST_USE trl_result earth_prepare_globe(const struct places *places);
+// Elevation and open water of the whole globe, and its snow: the share of it that pictures have.
+TRL_MUST_USE trl_result earth_prepare_globe(const struct places *places,
+                                            const struct picture *snow);
 // The inset in Colorado.
 TRL_MUST_USE trl_result earth_prepare_colorado(const struct places *places);
 // The best colour and night light pictures that are there, and the cover of clouds where it is.
-TRL_MUST_USE trl_result earth_prepare_pictures(const struct places *places);
+// *snow: the caller's, also on failure.
+TRL_MUST_USE trl_result earth_prepare_pictures(const struct places *places, struct picture *snow);
+
+// The share of each pixel that is snow, as a picture of one band, and the colours without it.
+// *share: the caller's, also on failure.
+TRL_MUST_USE trl_result snow_take_out(const struct places *places, struct picture *colour,
+                                      struct picture *share);
+// As a mask, snow.tif, that is finer than the share: 5400 x 2700, by the heights of the globe.
+TRL_MUST_USE trl_result snow_write(const struct places *places, const struct picture *share,
+                                   const int16_t *elevation);
 
 // A whole globe of one kind of number, column 0 at 180 W, row 0 at 90 N: one of the two arrays,
 // bands interleaved.

@@ -20,6 +20,7 @@ uniform float u_wants_outside;
 uniform float u_wants_shadow;
 uniform float u_wants_eclipse;
 uniform float u_wants_blend;
+uniform float u_wants_cover;
 uniform float u_wants_sea;
 uniform float u_wants_projection; // 1 the offset, 2 the map
 uniform vec4 u_place;             // latitude of the anchor; offsets in longitude and latitude; pole
@@ -42,9 +43,11 @@ void main()
                         sky_map_depth_outside(u_map.x, 1000.0, u_map.y), suns.middle, suns.reach);
     vec4 eclipses = vec4(eclipse_visible(u_angle.x, u_angle.y), eclipse_corona(u_angle.x),
                          eclipse_shadow(u_shell.x, u_shell.y, 1737400.0, 0.0046529), 0.0);
-    vec4 blends = vec4(blend_layers(u_shell.x, u_angle.x, u_angle.y, u_shell.y),
-                       blend_slope(u_shell.x, u_angle.x, u_angle.y, 3.0, 4.0),
-                       blend_neutral(u_shell.x, u_angle.x), albedo_varied(u_angle.x, u_shell.x));
+    vec4 blends =
+        vec4(blend_layers(u_shell.x, u_angle.x, u_angle.y, u_shell.y),
+             u_wants_cover > 0.5 ? albedo_cover(u_angle.x, u_angle.y, u_shell.x, u_shell.y)
+                                 : blend_slope(u_shell.x, u_angle.x, u_angle.y, 3.0, 4.0),
+             blend_neutral(u_shell.x, u_angle.x), albedo_varied(u_angle.x, u_shell.x));
     float anchor_sine = sin(u_place.x);
     float anchor_cosine = cos(u_place.x);
     AxisOffset offset = projection_axis_offset(anchor_sine, anchor_cosine, u_place.y, u_place.z);
