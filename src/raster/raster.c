@@ -318,6 +318,15 @@ static CPLErr read_origin(const struct origin *from, const struct raster_window 
                           (GSpacing)to->pixel_bytes * w->out_width, &extra);
 }
 
+static trl_result fail_to_read(const struct raster *raster, const char *gdal_says)
+{
+    return trl_fail(raster->ctx, TRL_ERROR_IO, TRL_LOG_ITEM_RASTER, "%s: %s%s%s%s", raster->path,
+                    raster->is_remote
+                        ? "its server did not send the pixels that it was asked for"
+                        : "its pixels cannot be read; the file is cut short or broken",
+                    gdal_says[0] ? " (" : "", gdal_says, gdal_says[0] ? ")" : "");
+}
+
 static trl_result read_band(const struct raster *raster, const struct raster_window *w,
                             uint32_t band, const struct destination *to)
 {
@@ -340,8 +349,7 @@ static trl_result read_band(const struct raster *raster, const struct raster_win
     gdal_catch_end(&catcher);
     // Some drivers (libpng, libjpeg) report a file that ends early and still say that all is well.
     if (error != CE_None || catcher.message[0]) {
-        result = fail_file(raster, TRL_ERROR_IO,
-                           catcher.message[0] ? catcher.message : "its pixels cannot be read");
+        result = fail_to_read(raster, catcher.message);
     }
     return result;
 }

@@ -15,16 +15,21 @@ static const struct {
                 {"/vsiswift/", "", 0}};
 enum { PREFIX_COUNT = sizeof PREFIXES / sizeof *PREFIXES };
 
-// A server that does not answer must not stop a viewer for minutes: 10 s to connect, and 30 s in
-// which less than 1 kB/s comes. One more try each, since networks lose packets.
-static const char *const OPTIONS[][2] = {{"GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR"},
-                                         {"GDAL_HTTP_CONNECTTIMEOUT", "10"},
-                                         {"GDAL_HTTP_LOW_SPEED_TIME", "30"},
-                                         {"GDAL_HTTP_LOW_SPEED_LIMIT", "1000"},
-                                         {"GDAL_HTTP_MAX_RETRY", "1"},
-                                         {"GDAL_HTTP_RETRY_DELAY", "1"},
-                                         {"GDAL_INGESTED_BYTES_AT_OPEN", "32768"},
-                                         {"GDAL_PAM_ENABLED", "NO"}};
+// A server that does not answer must not stop a viewer for minutes: 10 s to connect, 10 s in which
+// less than 1 kB/s comes, a minute for one request. One more try each, since networks lose packets.
+// Limits of the user's own (GDAL's names in the environment) count instead of these.
+static const struct {
+    const char *name, *value;
+    bool is_limit;
+} OPTIONS[] = {{"GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false},
+               {"GDAL_HTTP_CONNECTTIMEOUT", "10", true},
+               {"GDAL_HTTP_LOW_SPEED_TIME", "10", true},
+               {"GDAL_HTTP_LOW_SPEED_LIMIT", "1000", true},
+               {"GDAL_HTTP_TIMEOUT", "60", true},
+               {"GDAL_HTTP_MAX_RETRY", "1", true},
+               {"GDAL_HTTP_RETRY_DELAY", "0.5", true},
+               {"GDAL_INGESTED_BYTES_AT_OPEN", "32768", false},
+               {"GDAL_PAM_ENABLED", "NO", false}};
 enum { OPTION_COUNT = sizeof OPTIONS / sizeof *OPTIONS };
 
 static int find_prefix(const char *path)
@@ -49,19 +54,18 @@ char *remote_vsi_path(const trl_context *ctx, const char *path)
                  : mem_printf(ctx, "%s%s", PREFIXES[i].vsi, path + PREFIXES[i].dropped);
 }
 
-static void set_options(bool is_remote, bool is_on)
-{
-    for (int i = 0; is_remote && i < OPTION_COUNT; i++) {
-        CPLSetThreadLocalConfigOption(OPTIONS[i][0], is_on ? OPTIONS[i][1] : NULL);
-    }
-}
-
 void remote_begin(bool is_remote)
 {
-    set_options(is_remote, true);
+    for (int i = 0; is_remote && i < OPTION_COUNT; i++) {
+        if (!OPTIONS[i].is_limit || !CPLGetConfigOption(OPTIONS[i].name, NULL)) {
+            CPLSetThreadLocalConfigOption(OPTIONS[i].name, OPTIONS[i].value);
+        }
+    }
 }
 
 void remote_end(bool is_remote)
 {
-    set_options(is_remote, false);
+    for (int i = 0; is_remote && i < OPTION_COUNT; i++) {
+        CPLSetThreadLocalConfigOption(OPTIONS[i].name, NULL);
+    }
 }

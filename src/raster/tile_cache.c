@@ -11,8 +11,11 @@
 #include <time.h>
 
 enum { MAX_THREADS = 16, FIRST_BUCKETS = 256, WAIT_MS = 50 };
-// A tile that a network did not bring may come later.
-static const double RETRY_S = 15;
+// A source behind a network is given up after so many failures one after another, or when failures
+// took so much longer than what came: a request may take a minute, and a view shows hundreds.
+enum { MOST_FAILURES = 8 };
+static const double MOST_WASTED_S = 40;
+static const double RETRIES_GIVEN_UP = 4; // in times of tile_cache_desc.retry_s
 static const float HELD_PRIORITY = INFINITY;
 
 struct tile {
@@ -34,6 +37,11 @@ struct source {
     size_t bytes; // of a tile
     bool has_failed;
     char message[512]; // of its first failure, until it is told
+    uint32_t failures; // since something came
+    double wasted_s;   // in failures, less what was spent on what came
+    bool is_given_up;
+    double given_up_s; // when
+    bool was_given_up, tells_given_up;
 };
 
 struct loader {
@@ -48,6 +56,7 @@ struct loader {
 struct tile_cache {
     const trl_context *ctx;
     size_t max_bytes;
+    double retry_s;
     pthread_mutex_t lock; // of all below but the threads
     pthread_cond_t work, news;
     bool is_stopping;
@@ -61,6 +70,7 @@ struct tile_cache {
     size_t missing;  // wanted and waiting
     size_t reserved; // bytes of tiles that are being read
     uint64_t frame;
+    double forgiven_s; // what failed before may be asked for again
     struct tile_cache_stats stats;
     uint32_t loader_count;
     struct loader *loaders; // owned
@@ -273,7 +283,40 @@ static trl_result read_tile(struct loader *loader, const struct tile_source *sou
     return result;
 }
 
-static void fail_tile(struct loader *loader, struct tile *tile)
+static bool is_remote(const struct source *source)
+{
+    return source->desc.pyramid->raster.is_remote;
+}
+
+// Whether the tile is one that nobody asks the server for now. Coarse ones come from memory.
+static bool is_given_up(const struct tile_cache *cache, const struct tile_key *key)
+{
+    const struct source *source = &cache->sources[key->source];
+    return source->is_given_up && key->tile.level < source->desc.pyramid->base_level;
+}
+
+// What waits of the source fails with it.
+static void give_up(struct tile_cache *cache, struct source *source)
+{
+    source->is_given_up = true;
+    source->given_up_s = now_s();
+    source->tells_given_up = !source->was_given_up;
+    source->was_given_up = true;
+    size_t kept = 0;
+    for (size_t i = 0; i < cache->queue_count; i++) {
+        struct tile *tile = cache->queue[i];
+        if (&cache->sources[tile->key.source] == source && is_given_up(cache, &tile->key)) {
+            tile->failed_s = source->given_up_s;
+            cache->stats.failed++;
+            end_tile(cache, tile, TILE_FAILED);
+        } else {
+            cache->queue[kept++] = tile;
+        }
+    }
+    cache->queue_count = kept;
+}
+
+static void fail_tile(struct loader *loader, struct tile *tile, double spent_s)
 {
     struct tile_cache *cache = loader->cache;
     struct source *source = &cache->sources[tile->key.source];
@@ -284,6 +327,22 @@ static void fail_tile(struct loader *loader, struct tile *tile)
     cache->stats.failed++;
     tile->failed_s = now_s();
     end_tile(cache, tile, TILE_FAILED);
+    source->failures++;
+    source->wasted_s += spent_s;
+    if (is_remote(source) && !source->is_given_up &&
+        (source->failures >= MOST_FAILURES || source->wasted_s > MOST_WASTED_S)) {
+        give_up(cache, source);
+    }
+}
+
+static void note_success(struct source *source, const struct tile_key *key, double spent_s)
+{
+    if (key->tile.level >= source->desc.pyramid->base_level) {
+        return; // from memory
+    }
+    source->failures = 0;
+    source->wasted_s = fmax(0, source->wasted_s - spent_s);
+    source->is_given_up = false;
 }
 
 // With the lock, which it gives up while it reads.
@@ -310,9 +369,10 @@ static void load_tile(struct loader *loader, struct tile *tile)
     cache->reserved -= bytes;
     cache->stats.read_s += spent_s;
     if (result != TRL_OK) {
-        fail_tile(loader, tile);
+        fail_tile(loader, tile, spent_s);
         return;
     }
+    note_success(&cache->sources[key.source], &key, spent_s);
     tile->texels = read.texels;
     tile->range = read.range;
     cache->stats.loaded++;
@@ -369,6 +429,7 @@ trl_result tile_cache_create(const trl_context *ctx, const struct tile_cache_des
     }
     cache->ctx = ctx;
     cache->max_bytes = desc->max_bytes;
+    cache->retry_s = desc->retry_s;
     cache->frame = 1;
     pthread_condattr_t clock;
     pthread_condattr_init(&clock);
@@ -395,6 +456,36 @@ trl_result tile_cache_create(const trl_context *ctx, const struct tile_cache_des
     return result;
 }
 
+static void tell_failure(struct tile_cache *cache, const char *message)
+{
+    (void)trl_fail(cache->ctx, TRL_ERROR_IO, TRL_LOG_ITEM_RASTER, "%s (coarser texels stand in)",
+                   message);
+}
+
+// Logs outside of the lock: a log function may do what it likes.
+static void report_failures(struct tile_cache *cache)
+{
+    for (uint32_t i = 0; i < cache->source_count; i++) {
+        struct source *source = &cache->sources[i];
+        char message[sizeof source->message];
+        pthread_mutex_lock(&cache->lock);
+        memcpy(message, source->message, sizeof message);
+        source->message[0] = '\0';
+        const bool tells_given_up = source->tells_given_up;
+        source->tells_given_up = false;
+        pthread_mutex_unlock(&cache->lock);
+        if (message[0]) {
+            tell_failure(cache, message);
+        }
+        if (tells_given_up) {
+            trl_log(cache->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER,
+                    "%s: its server fails again and again: no more is fetched, and asked again "
+                    "in %.0f s",
+                    source->desc.pyramid->raster.path, RETRIES_GIVEN_UP * cache->retry_s);
+        }
+    }
+}
+
 void tile_cache_destroy(struct tile_cache **pointer)
 {
     struct tile_cache *cache = *pointer;
@@ -408,6 +499,7 @@ void tile_cache_destroy(struct tile_cache **pointer)
     for (uint32_t i = 0; i < cache->loader_count; i++) {
         pthread_join(cache->loaders[i].thread, NULL);
     }
+    report_failures(cache);
     for (size_t i = 0; cache->buckets && i < cache->bucket_count; i++) {
         while (cache->buckets[i]) {
             forget_tile(cache, cache->buckets[i]);
@@ -439,23 +531,6 @@ trl_result tile_cache_add(struct tile_cache *cache, const struct tile_source *so
     return TRL_OK;
 }
 
-// Logs outside of the lock: a log function may do what it likes.
-static void report_failures(struct tile_cache *cache)
-{
-    for (uint32_t i = 0; i < cache->source_count; i++) {
-        struct source *source = &cache->sources[i];
-        char message[sizeof source->message];
-        pthread_mutex_lock(&cache->lock);
-        memcpy(message, source->message, sizeof message);
-        source->message[0] = '\0';
-        pthread_mutex_unlock(&cache->lock);
-        if (message[0]) {
-            (void)trl_fail(cache->ctx, TRL_ERROR_IO, TRL_LOG_ITEM_RASTER,
-                           "%s (coarser texels stand in)", message);
-        }
-    }
-}
-
 void tile_cache_begin(struct tile_cache *cache)
 {
     report_failures(cache);
@@ -482,16 +557,35 @@ void tile_cache_begin(struct tile_cache *cache)
     pthread_mutex_unlock(&cache->lock);
 }
 
-static bool may_retry(const struct tile_cache *cache, const struct tile *tile)
+void tile_cache_retry(struct tile_cache *cache)
 {
-    return cache->sources[tile->key.source].desc.pyramid->raster.is_remote &&
-           now_s() - tile->failed_s > RETRY_S;
+    pthread_mutex_lock(&cache->lock);
+    const double now = now_s();
+    cache->forgiven_s = now - cache->retry_s;
+    for (uint32_t i = 0; i < cache->source_count; i++) {
+        struct source *source = &cache->sources[i];
+        if (source->is_given_up && now - source->given_up_s > RETRIES_GIVEN_UP * cache->retry_s) {
+            source->is_given_up = false;
+            source->failures = MOST_FAILURES - 1; // one more will do
+            source->wasted_s = 0;
+        }
+    }
+    pthread_mutex_unlock(&cache->lock);
 }
 
-// Finds the tile or makes it, and asks for it. NULL when memory is out. With the lock.
+static bool may_retry(const struct tile_cache *cache, const struct tile *tile)
+{
+    return is_remote(&cache->sources[tile->key.source]) && tile->failed_s < cache->forgiven_s;
+}
+
+// Finds the tile or makes it, and asks for it. NULL when memory is out, or the source given up.
+// With the lock.
 static struct tile *ask_for(struct tile_cache *cache, const struct tile_key *key, float priority)
 {
     struct tile *tile = find_tile(cache, key);
+    if (is_given_up(cache, key)) {
+        return tile;
+    }
     if (!tile) {
         tile = make_tile(cache, key);
     }
@@ -521,7 +615,8 @@ enum tile_state tile_cache_want(struct tile_cache *cache, const struct tile_key 
     *view = (struct tile_view){0};
     pthread_mutex_lock(&cache->lock);
     struct tile *tile = ask_for(cache, key, priority);
-    const enum tile_state state = tile ? tile->state : TILE_ABSENT;
+    const enum tile_state missing = is_given_up(cache, key) ? TILE_FAILED : TILE_ABSENT;
+    const enum tile_state state = tile ? tile->state : missing;
     if (tile) {
         tile->frame = cache->frame;
         touch_tile(cache, tile);

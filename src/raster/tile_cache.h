@@ -8,7 +8,8 @@
 // was asked for in earlier frames and not begun is dropped. Of what is held, the tiles that were
 // used longest ago make room for others; those that the current frame asked for, or that somebody
 // holds, never do. A tile that cannot be read is reported once a source and not asked for again
-// (over a network: not for a while).
+// (over a network: after a while, see tile_cache_retry). A source behind a network that fails again
+// and again, or for long, is given up as a whole, so that nobody waits for each of its tiles.
 
 #include "raster/pyramid.h"
 
@@ -50,6 +51,9 @@ struct tile_view {
 struct tile_cache_desc {
     size_t max_bytes;
     uint32_t threads; // at least 1
+    // How long a tile that a network did not bring is left alone; four times that a source which
+    // was given up.
+    double retry_s;
 };
 
 struct tile_cache_stats {
@@ -74,6 +78,10 @@ void tile_cache_destroy(struct tile_cache **cache);
 // The source's number. TRL_ERROR_INVALID (too many).
 TRL_MUST_USE trl_result tile_cache_add(struct tile_cache *cache, const struct tile_source *source,
                                        uint32_t *index);
+
+// What failed over a network and has been left alone for long enough may be asked for again from
+// here on. Without it nothing is: whoever waits calls it once before, not while waiting.
+void tile_cache_retry(struct tile_cache *cache);
 
 // A new frame. Reports what failed since the last one.
 void tile_cache_begin(struct tile_cache *cache);

@@ -181,6 +181,9 @@ trl_result load_tiled(struct loader *loader, const struct surface_layer_desc *de
 trl_result load_start_stream(struct loader *loader)
 {
     struct surface *s = loader->surface;
+    if (s->stream && s->stream->layer_count == 0) {
+        stream_destroy(&s->stream); // none that was to be held in tiles is any good
+    }
     if (!s->stream) {
         return TRL_OK;
     }

@@ -14,6 +14,8 @@
 // next frames'.
 enum { PUTS_PER_FRAME = 24, MOST_HINTS = 64, MOST_ROUNDS = 200, MOST_THREADS = 4 };
 static const double HINT_FRAMES = 12; // ahead, as the camera moves now
+// What a network did not bring is asked for again after so long, by a later frame.
+static const double RETRY_S = 15;
 
 trl_result stream_create(const trl_context *ctx, struct gpu *gpu, bool waits, struct stream **out)
 {
@@ -64,6 +66,7 @@ static trl_result start_cache(struct stream *s, size_t max_bytes)
 {
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
     const struct tile_cache_desc desc = {.max_bytes = max_bytes,
+                                         .retry_s = RETRY_S,
                                          .threads = (uint32_t)(cores < 2              ? 2
                                                                : cores > MOST_THREADS ? MOST_THREADS
                                                                                       : cores)};
@@ -268,6 +271,7 @@ trl_result stream_update(struct stream *s, struct surface *surface, const struct
     struct round round = {0};
     trl_result result = TRL_OK;
     atlas_begin(&s->atlas);
+    tile_cache_retry(s->cache); // not once a round: a frame that waits asks for a tile once
     for (int i = 0; i < MOST_ROUNDS && result == TRL_OK; i++) {
         result = choose_tiles(s, surface, view);
         if (result == TRL_OK) {

@@ -112,6 +112,18 @@ class RastersTest(ProgramTest):
         self.assertEqual(len(lines), 1, done.stderr)
         self.assertIn("none.tif", lines[0])
 
+    def test_a_server_that_fails_half_way_is_left_out(self):
+        # The file has no overviews: its coarse level needs all of it.
+        (self.served / "fault").write_text("500 200000")
+        self.addCleanup((self.served / "fault").unlink)
+        scene = self.write_scene(globe_scene(self.url))
+        done = self.run_program("render", scene, "--view", "orbit", "--size", "32x32", "-o", "a.png", "-q", "--allow-remote")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = done.stderr.splitlines()
+        self.assertEqual(len(lines), 1, done.stderr)
+        for word in ["globe.tif", "left out"]:
+            self.assertIn(word, lines[0])
+
     def test_too_little_memory_is_refused(self):
         scene = self.write_scene()
         self.expect_failure(2, ["render", scene, "--memory", "1"], ["--memory", "64"])

@@ -3,13 +3,15 @@
 """Serves a folder on the loopback, in ranges of bytes as object stores do, and counts what it served.
 
 range_server.py FOLDER: prints its port, then serves until its standard input closes. FOLDER/served holds a line
-"BYTES PATH" for every request, whatever became of it.
+"BYTES PATH" for every request, whatever became of it. While there is a FOLDER/fault with "KIND BYTE" in it, ranges that
+reach beyond that byte are not served: KIND is a status (500), or "stall" to say nothing for ten seconds.
 """
 import http.server
 import pathlib
 import re
 import sys
 import threading
+import time
 
 
 class RangeHandler(http.server.BaseHTTPRequestHandler):
@@ -20,6 +22,24 @@ class RangeHandler(http.server.BaseHTTPRequestHandler):
     def count(self, size):
         with self.lock, open(self.folder / "served", "a", encoding="utf-8") as served:
             served.write(f"{size} {self.path}\n")
+
+    def is_at_fault(self, last):
+        """Answers in the fault's way and returns true where there is one."""
+        try:
+            kind, byte = (self.folder / "fault").read_text(encoding="utf-8").split()
+        except (OSError, ValueError):
+            return False
+        if last <= int(byte):
+            return False
+        self.count(0)
+        if kind == "stall":
+            time.sleep(10)
+            self.close_connection = True
+        else:
+            self.send_response(int(kind))
+            self.send_header("Content-Length", "0")
+            self.end_headers()
+        return True
 
     def answer(self, has_body):
         path = self.folder / self.path.lstrip("/")
@@ -33,6 +53,8 @@ class RangeHandler(http.server.BaseHTTPRequestHandler):
         wanted = re.fullmatch(r"bytes=(\d+)-(\d*)", self.headers.get("Range", ""))
         first = int(wanted.group(1)) if wanted else 0
         last = min(int(wanted.group(2)) if wanted and wanted.group(2) else size - 1, size - 1)
+        if has_body and self.is_at_fault(last):
+            return
         self.send_response(206 if wanted else 200)
         if wanted:
             self.send_header("Content-Range", f"bytes {first}-{last}/{size}")

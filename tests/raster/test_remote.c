@@ -28,8 +28,8 @@ static const char *server_path;
 struct fixture {
     trl_context *ctx;
     char folder[64];
-    int errors;
-    char last[2048];
+    int errors, warnings;
+    char last[2048], warning[2048];
     pid_t server;
     int to_server; // its standard input
     int port;
@@ -42,6 +42,9 @@ static void keep_log(void *user, trl_log_level level, trl_log_item item, const c
     if (level == TRL_LOG_ERROR) {
         f->errors++;
         snprintf(f->last, sizeof f->last, "%s", message);
+    } else if (level == TRL_LOG_WARN) {
+        f->warnings++;
+        snprintf(f->warning, sizeof f->warning, "%s", message);
     }
 }
 
@@ -227,8 +230,10 @@ static void of_a_cloud_file_only_parts_are_fetched(void **state)
     open_remote(f, "cloud.tif", &p);
     const size_t opened = count_served(f, "cloud.tif");
     struct tile_cache *cache = NULL;
-    assert_int_equal(tile_cache_create(f->ctx, &(struct tile_cache_desc){1 << 24, 2}, &cache),
-                     TRL_OK);
+    assert_int_equal(
+        tile_cache_create(f->ctx, &(struct tile_cache_desc){.max_bytes = 1 << 24, .threads = 2},
+                          &cache),
+        TRL_OK);
     uint32_t index = 0;
     assert_int_equal(tile_cache_add(cache, &(struct tile_source){.pyramid = &p}, &index), TRL_OK);
     tile_cache_begin(cache);
@@ -249,6 +254,125 @@ static void of_a_cloud_file_only_parts_are_fetched(void **state)
     assert_true(all < size / 3);
     tile_cache_destroy(&cache);
     pyramid_finish(&p);
+}
+
+static void set_fault(const struct fixture *f, const char *fault)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/fault", f->folder);
+    if (!fault) {
+        assert_int_equal(unlink(path), 0);
+        return;
+    }
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(fault, file);
+    fclose(file);
+}
+
+static size_t count_requests(const struct fixture *f)
+{
+    char path[128], line[512];
+    snprintf(path, sizeof path, "%s/served", f->folder);
+    FILE *file = fopen(path, "r");
+    size_t count = 0;
+    while (file && fgets(line, sizeof line, file)) {
+        count++;
+    }
+    if (file) {
+        fclose(file);
+    }
+    return count;
+}
+
+// A globe whose finest level has 16 x 8 tiles, and a cache for it.
+struct globe {
+    struct pyramid pyramid;
+    struct tile_cache *cache;
+    uint32_t source;
+};
+
+static void open_globe(struct fixture *f, uint32_t threads, struct globe *out)
+{
+    write_globe(f, "cloud.tif", 4096, true);
+    open_remote(f, "cloud.tif", &out->pyramid);
+    const struct tile_cache_desc desc = {.max_bytes = 1 << 26, .threads = threads, .retry_s = 0.05};
+    assert_int_equal(tile_cache_create(f->ctx, &desc, &out->cache), TRL_OK);
+    assert_int_equal(
+        tile_cache_add(out->cache, &(struct tile_source){.pyramid = &out->pyramid}, &out->source),
+        TRL_OK);
+}
+
+static void close_globe(struct globe *globe)
+{
+    tile_cache_destroy(&globe->cache);
+    pyramid_finish(&globe->pyramid);
+}
+
+// As a frame that waits does: all tiles of the finest level. How many are there.
+static size_t want_all(struct globe *globe)
+{
+    size_t ready = 0;
+    struct tile_view view;
+    tile_cache_retry(globe->cache);
+    for (int round = 0; round < 2; round++) {
+        tile_cache_begin(globe->cache);
+        for (uint32_t i = 0; i < 128; i++) {
+            const struct tile_key key = {globe->source, {0, i % 16, i / 16}};
+            const enum tile_state state = tile_cache_want(globe->cache, &key, 1, &view);
+            ready += round == 1 && state == TILE_READY;
+            assert_true(round == 0 || state == TILE_READY || state == TILE_FAILED);
+        }
+        assert_int_equal(tile_cache_wait(globe->cache), TRL_OK);
+    }
+    return ready;
+}
+
+// Without a limit each of 128 tiles would be asked for twice, with a pause before the second time.
+static void a_server_that_fails_is_given_up_and_asked_again_later(void **state)
+{
+    struct fixture *f = *state;
+    struct globe globe;
+    open_globe(f, 4, &globe);
+    set_fault(f, "500 0");
+    const size_t before = count_requests(f);
+    assert_true(want_all(&globe) < 8); // what came with other bytes
+    assert_int_equal(f->errors, 1);
+    assert_non_null(strstr(f->last, "cloud.tif"));
+    assert_non_null(strstr(f->last, "its server did not send"));
+    assert_non_null(strstr(f->last, "coarser texels stand in"));
+    assert_int_equal(f->warnings, 1);
+    assert_non_null(strstr(f->warning, "no more is fetched"));
+    // 8 failures, and three more threads that are at one; each asks for two blocks, twice.
+    assert_true(count_requests(f) - before <= 11 * 4);
+    // What is held whole is there as before.
+    const struct tile_key coarse = {globe.source, {globe.pyramid.base_level, 1, 0}};
+    struct tile_view view;
+    assert_true(tile_cache_hold(globe.cache, &coarse, true, &view));
+    tile_cache_release(globe.cache, &coarse);
+    usleep(300000); // more than 4 * retry_s
+    set_fault(f, NULL);
+    assert_int_equal(want_all(&globe), 128);
+    assert_int_equal(f->errors + f->warnings, 2); // told once
+    close_globe(&globe);
+}
+
+// The user's own limits count: one second of silence, no second try.
+static void a_server_that_says_nothing_is_given_up(void **state)
+{
+    struct fixture *f = *state;
+    setenv("GDAL_HTTP_LOW_SPEED_TIME", "1", 1);
+    setenv("GDAL_HTTP_MAX_RETRY", "0", 1);
+    struct globe globe;
+    open_globe(f, 8, &globe);
+    set_fault(f, "stall 0");
+    assert_true(want_all(&globe) < 8);
+    assert_int_equal(f->errors, 1);
+    assert_non_null(strstr(f->last, "cloud.tif"));
+    assert_int_equal(f->warnings, 1);
+    close_globe(&globe);
+    unsetenv("GDAL_HTTP_LOW_SPEED_TIME");
+    unsetenv("GDAL_HTTP_MAX_RETRY");
 }
 
 // All of it would have to be fetched to show it from afar.
@@ -294,6 +418,9 @@ int main(int argc, char **argv)
                                         tear_down),
         cmocka_unit_test_setup_teardown(other_virtual_files_stay_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(of_a_cloud_file_only_parts_are_fetched, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_server_that_fails_is_given_up_and_asked_again_later,
+                                        set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_server_that_says_nothing_is_given_up, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_large_file_without_overviews_is_refused, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(what_is_not_there_is_one_error, set_up, tear_down),

@@ -262,7 +262,7 @@ enum { TILE_BYTES = 2 * PYRAMID_TEXELS };
 static void open_cache(struct fixture *f, const struct pyramid *p, size_t tiles, uint32_t threads,
                        struct tile_cache **out)
 {
-    const struct tile_cache_desc desc = {tiles * TILE_BYTES, threads};
+    const struct tile_cache_desc desc = {.max_bytes = tiles * TILE_BYTES, .threads = threads};
     assert_int_equal(tile_cache_create(f->ctx, &desc, out), TRL_OK);
     uint32_t index = 9;
     assert_int_equal(tile_cache_add(*out, &(struct tile_source){.pyramid = p}, &index), TRL_OK);
@@ -407,7 +407,9 @@ static void open_gated(struct fixture *f, const struct pyramid *p, struct gate *
                        struct tile_cache **cache)
 {
     assert_int_equal(
-        tile_cache_create(f->ctx, &(struct tile_cache_desc){20 * TILE_BYTES, 1}, cache), TRL_OK);
+        tile_cache_create(
+            f->ctx, &(struct tile_cache_desc){.max_bytes = 20 * TILE_BYTES, .threads = 1}, cache),
+        TRL_OK);
     uint32_t index = 0;
     const struct tile_source source = {p, pass_gate, gate};
     assert_int_equal(tile_cache_add(*cache, &source, &index), TRL_OK);
@@ -599,8 +601,10 @@ static void waiting_can_be_cancelled(void **state)
     trl_context *ctx = NULL;
     assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
     struct tile_cache *cache = NULL;
-    assert_int_equal(tile_cache_create(ctx, &(struct tile_cache_desc){60 * TILE_BYTES, 1}, &cache),
-                     TRL_OK);
+    assert_int_equal(
+        tile_cache_create(
+            ctx, &(struct tile_cache_desc){.max_bytes = 60 * TILE_BYTES, .threads = 1}, &cache),
+        TRL_OK);
     uint32_t index;
     assert_int_equal(tile_cache_add(cache, &(struct tile_source){.pyramid = &p}, &index), TRL_OK);
     tile_cache_begin(cache);
@@ -657,7 +661,8 @@ static trl_result read_one_tile(trl_context *ctx, const struct raster *raster)
     const struct pyramid_desc desc = {&mine, PYRAMID_INT16, true, true, true};
     trl_result result = pyramid_init(ctx, &desc, &p);
     if (result == TRL_OK) {
-        result = tile_cache_create(ctx, &(struct tile_cache_desc){9 * TILE_BYTES, 1}, &cache);
+        result = tile_cache_create(
+            ctx, &(struct tile_cache_desc){.max_bytes = 9 * TILE_BYTES, .threads = 1}, &cache);
     }
     if (result == TRL_OK) {
         uint32_t index;
