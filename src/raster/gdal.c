@@ -7,6 +7,7 @@
 #include <gdal.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <string.h>
 
 static void catch_message(CPLErr kind, CPLErrorNum number, const char *text)
 {
@@ -37,6 +38,18 @@ void gdal_catch_end(struct gdal_catcher *catcher)
 {
     (void)catcher;
     CPLPopErrorHandler();
+}
+
+const char *gdal_message_about(const struct gdal_catcher *catcher, const char *path)
+{
+    const char *text = catcher->message;
+    const char *name = strstr(text, path);
+    // "`path' not recognized…", "/vsicurl/path: …", or in the middle, where it stays.
+    if (name && name - text <= 12) {
+        text = name + strlen(path);
+        text += strspn(text, "':, ");
+    }
+    return text;
 }
 
 void gdal_register(void)

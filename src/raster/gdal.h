@@ -18,6 +18,9 @@ struct gdal_catcher {
 void gdal_catch_begin(struct gdal_catcher *catcher, const trl_context *ctx);
 void gdal_catch_end(struct gdal_catcher *catcher);
 
+// GDAL's message without the name of the file that it begins with, which our line has already.
+const char *gdal_message_about(const struct gdal_catcher *catcher, const char *path);
+
 // Registers GDAL's drivers, once a process. Threads: any.
 void gdal_register(void);
 

@@ -17,10 +17,16 @@ static trl_result fail_raster(const struct raster *raster, const char *why)
 
 static trl_result assume_whole_globe(struct raster *raster)
 {
+    if (GDALGetGCPCount(raster->dataset) > 0) {
+        return fail_raster(raster, "only some of its points have places (ground control points); "
+                                   "make a map of it (gdalwarp -t_srs EPSG:4326)");
+    }
     if (raster->width != 2 * raster->height) {
-        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                        "%s: no georeference, and %u x %u is not the 2:1 of a whole globe",
-                        raster->path, raster->width, raster->height);
+        return trl_fail(
+            raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+            "%s: no georeference, and %u x %u is not the 2:1 of a whole globe; say where "
+            "it lies (gdal_translate -a_srs EPSG:4326 -a_ullr WEST NORTH EAST SOUTH)",
+            raster->path, raster->width, raster->height);
     }
     raster->west_deg = -180;
     raster->north_deg = 90;
@@ -39,9 +45,12 @@ static trl_result check_borders(struct raster *raster)
     if (across > 360 + slack_x || raster->north_deg > 90 + slack_y ||
         raster->north_deg - down < -90 - slack_y || fabs(raster->west_deg) > 720) {
         return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                        "%s: its borders are outside the globe (%g to %g E, %g to %g N)",
+                        "%s: its borders are outside the globe (%g to %g E, %g to %g N)%s",
                         raster->path, raster->west_deg, raster->west_deg + across,
-                        raster->north_deg - down, raster->north_deg);
+                        raster->north_deg - down, raster->north_deg,
+                        raster->body_radius_m > 0
+                            ? ""
+                            : "; if they are not degrees, say what they are (gdal_edit.py -a_srs)");
     }
     // Rounding may put 180 W a little west of itself.
     raster->west_deg -= 360 * floor((raster->west_deg + 180) / 360 + 1e-12);
@@ -60,12 +69,15 @@ static trl_result check_transform(const struct raster *raster, const double t[6]
 {
     for (int i = 0; i < 6; i++) {
         if (!isfinite(t[i])) {
-            return fail_raster(raster, "its georeference is not finite");
+            return fail_raster(raster, "its georeference is not finite; give it another one "
+                                       "(gdal_translate -a_ullr WEST NORTH EAST SOUTH)");
         }
     }
     return t[1] * t[5] - t[2] * t[4] != 0
                ? TRL_OK
-               : fail_raster(raster, "its georeference gives its pixels no area");
+               : fail_raster(raster,
+                             "its georeference gives its pixels no area; give it another one "
+                             "(gdal_translate -a_ullr WEST NORTH EAST SOUTH)");
 }
 
 static void place_geographic(struct raster *raster, const double t[6])
@@ -81,7 +93,7 @@ static trl_result warp_and_place(struct raster *raster)
     trl_result result = raster_warp(raster);
     double t[6] = {0};
     if (result == TRL_OK) {
-        result = raster_read_size_and_type(raster);
+        result = raster_read_facts(raster);
     }
     if (result == TRL_OK && GDALGetGeoTransform(raster->dataset, t) != CE_None) {
         result = fail_raster(raster, "GDAL does not say where it warped it to");
@@ -92,6 +104,13 @@ static trl_result warp_and_place(struct raster *raster)
     }
     place_geographic(raster, t);
     return check_borders(raster);
+}
+
+static double find_body_radius(OGRSpatialReferenceH srs)
+{
+    OGRErr error = OGRERR_FAILURE;
+    const double radius_m = srs ? OSRGetSemiMajor(srs, &error) : 0;
+    return error == OGRERR_NONE ? radius_m : 0;
 }
 
 trl_result raster_read_georeference(struct raster *raster)
@@ -106,13 +125,15 @@ trl_result raster_read_georeference(struct raster *raster)
         return result;
     }
     const OGRSpatialReferenceH srs = GDALGetSpatialRef(raster->dataset);
+    raster->body_radius_m = find_body_radius(srs);
     const bool is_geographic = !srs || OSRIsGeographic(srs) || OSRIsDerivedGeographic(srs);
     if (is_geographic && is_north_up(t)) {
         place_geographic(raster, t);
         return check_borders(raster);
     }
     if (!srs) {
-        return fail_raster(raster, "it is turned, and does not say in which coordinates");
+        return fail_raster(raster, "it is turned, and does not say in which coordinates; say it "
+                                   "(gdal_edit.py -a_srs EPSG:4326)");
     }
     if (is_geographic || !is_north_up(t) || !raster_recognise_projection(raster, t)) {
         return warp_and_place(raster);

@@ -7,8 +7,9 @@
 
 #include "raster/raster.h"
 
-// Size, bands, type and missing value of raster->dataset. TRL_ERROR_INVALID.
-TRL_MUST_USE trl_result raster_read_size_and_type(struct raster *raster);
+// Size, bands and their colours, type, units and missing value of raster->dataset.
+// TRL_ERROR_INVALID.
+TRL_MUST_USE trl_result raster_read_facts(struct raster *raster);
 
 // Borders or plane of raster->dataset. Where only a warped raster will do, `dataset` becomes that,
 // `source` the one before, and size and type are read again. TRL_ERROR_INVALID.

@@ -9,6 +9,10 @@
 // level below it averages (PYRAMID_TILE * 2^level)^2 pixels: the larger, the fewer.
 enum { BASE_SIDE = 1024, BASE_SIDE_WITHOUT_OVERVIEWS = 4096, CHEAP_SIDE = 8192, STRIP_ROWS = 32 };
 
+// Files without overviews are read whole at each start; of so many pixels that is a quarter of an
+// hour at the 40 million a second that GDAL averages of a plain file.
+static const double MOST_PIXELS_AT_ONCE = 3.6e10;
+
 size_t pyramid_texel_bytes(enum pyramid_format format)
 {
     switch (format) {
@@ -70,6 +74,13 @@ static trl_result choose_base(struct pyramid *p)
                         "%s: %u x %u pixels without overviews: all %.0f MB would have to be "
                         "fetched; make a cloud-optimised GeoTIFF of it (gdal_translate -of COG)",
                         p->raster.path, p->raster.width, p->raster.height, megabytes);
+    }
+    if (!is_cheap && (double)p->raster.width * p->raster.height > MOST_PIXELS_AT_ONCE) {
+        return trl_fail(
+            p->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+            "%s: %u x %u pixels without overviews: to read all %.0f MB would take hours; "
+            "make overviews once (gdaladdo -r average)",
+            p->raster.path, p->raster.width, p->raster.height, megabytes);
     }
     if (!is_cheap) {
         trl_log(p->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER,

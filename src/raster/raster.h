@@ -26,6 +26,13 @@ enum raster_type {
     RASTER_FLOAT  // everything else, as GDAL converts it
 };
 
+// What a pixel's number means: offset + scale * number, in units.
+struct raster_values {
+    double scale, offset; // 1 and 0 where the file says nothing
+    char unit[32];        // as the file names it; empty: nothing
+    double unit_m;        // metres; 1 where the file says nothing, 0 where the name is none of ours
+};
+
 // The plane of shared/projection.glsl, in radians at the pole: x to the right, y up.
 struct raster_plane {
     double pole;          // 1 north, -1 south; 0: equirectangular
@@ -47,10 +54,13 @@ struct raster {
     uint32_t width, height;
     uint32_t file_width, file_height; // more than these where it is reduced
     uint32_t band_count;
-    enum raster_type type;     // of the first band's file type
-    bool has_palette;          // numbers of colours, read as those colours
-    bool has_mask;             // the file says beside its bands where it has data
-    bool has_alpha;            // the last band of 8 bits, of the file's own, says what is covered
+    enum raster_type type; // of the first band's file type
+    bool has_palette;      // numbers of colours, read as those colours
+    bool has_mask;         // the file says beside its numbers where it has data
+    bool has_alpha;        // a band of 8 bits, of the file's own, says what is covered
+    int colour_bands[4];   // from 0: red, green, blue, the same one of grey; alpha or -1
+    struct raster_values values;
+    double body_radius_m;      // semi-major axis of the coordinates; 0: they name none
     struct raster_plane plane; // of a stereographic raster, else zeroed
     // Of an equirectangular one, else 0.
     double west_deg, east_deg, south_deg,
@@ -93,15 +103,16 @@ struct raster_window {
 // The whole raster, no larger than `max_side` in either direction (0: as it is).
 struct raster_window raster_window_whole(const struct raster *raster, uint32_t max_side);
 
-// Reads one band (from 0) as floats, north row first. Pixels without data become NaN.
+// Reads one band (from 0) as floats, north row first: the file's numbers, without scale and offset.
+// Pixels without data become NaN, and numbers beyond 1e30, which nothing that is measured has.
 // Returns TRL_OK; TRL_ERROR_INVALID (window or band outside); TRL_ERROR_IO (the file is broken).
 TRL_MUST_USE trl_result raster_read_float(const struct raster *raster,
                                           const struct raster_window *window, uint32_t band,
                                           float *out);
 
-// Reads 8-bit pixels as RGBA, north row first. One band gives grey, two grey and alpha, three RGB;
-// a missing alpha is 255, or 0 where a pixel has no data. Returns as above; TRL_ERROR_INVALID also
-// when the raster is not 8-bit.
+// Reads 8-bit pixels as RGBA, north row first: the bands that say that they are red, green, blue
+// and alpha; where none says so the first three, or the first as grey. A missing alpha is 255, or 0
+// where a pixel has no data. Returns as above; TRL_ERROR_INVALID also when the raster is not 8-bit.
 TRL_MUST_USE trl_result raster_read_rgba8(const struct raster *raster,
                                           const struct raster_window *window, uint8_t *out);
 

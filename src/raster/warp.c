@@ -44,10 +44,10 @@ static char **add_missing_value(GDALDatasetH source, char **options)
 {
     const GDALRasterBandH band = GDALGetRasterBand(source, 1);
     const GDALDataType type = GDALGetRasterDataType(band);
-    const int bands = GDALGetRasterCount(source);
     int has_nodata = 0;
     GDALGetRasterNoDataValue(band, &has_nodata);
-    if (has_nodata || (type == GDT_Byte && (bands == 2 || bands == 4))) {
+    const GDALRasterBandH last = GDALGetRasterBand(source, GDALGetRasterCount(source));
+    if (has_nodata || GDALGetRasterColorInterpretation(last) == GCI_AlphaBand) {
         return options; // GDAL carries these over
     }
     if (type == GDT_Byte) {
@@ -128,7 +128,8 @@ trl_result raster_warp(struct raster *raster)
     OSRDestroySpatialReference(degrees);
     if (!warped) {
         return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                        "%s: its coordinates (%s) cannot be turned into longitude and latitude",
+                        "%s: its coordinates (%s) cannot be turned into longitude and latitude; "
+                        "correct them (gdal_edit.py -a_srs, -a_ullr)",
                         raster->path, name ? name : "unnamed");
     }
     raster->source = raster->dataset;

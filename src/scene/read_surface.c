@@ -49,10 +49,12 @@ static trl_result check_extras(const struct scene_node *node, enum layer_kind ki
 static trl_result read_numbers(const struct scene_node *node, struct layer *out)
 {
     const struct scene_range scales = {.min = -1e6, .max = 1e6};
+    // Files of radii: the planet's is taken off.
+    const struct scene_range offsets = {.min = -1e8, .max = 1e8};
     const struct scene_number numbers[] = {
         {"feather_deg", {.min = 0, .max = 90}, &out->feather_deg},
         {"scale", scales, &out->scale},
-        {"offset_m", scales, &out->offset_m},
+        {"offset_m", offsets, &out->offset_m},
         {"radiance_cd_m2", {.min = 0, .max = 1e6}, &out->radiance_cd_m2}};
     return scene_read_numbers(node, numbers, sizeof numbers / sizeof *numbers);
 }

@@ -20,6 +20,9 @@ static const char *const KIND_NAMES[SURFACE_KIND_COUNT] = {"elevation", "colour"
                                                            "normal"};
 // Bytes a texel on both sides, mips included: heights are held as floats on the GPU and as read on
 // the CPU.
+// How far a raster's ellipsoid may be from the planet's sphere: as Earth's is from the Moon's 70 %,
+// Mars's rasters from the lowered sphere of scenes/mars.json 0.3 %.
+static const double OTHER_BODY = 0.05;
 static const double KIND_TEXEL_BYTES[SURFACE_KIND_COUNT] = {4 * 4.0 / 3 + 4, 4 * 4.0 / 3, 4.0 / 3,
                                                             4 * 4.0 / 3, 4 * 4.0 / 3};
 
@@ -50,18 +53,39 @@ double load_whole_bytes(const struct loader *loader, const struct surface_layer_
     return (double)w.out_width * w.out_height * KIND_TEXEL_BYTES[desc->kind];
 }
 
-trl_result load_set_scale(const struct loader *loader, const struct surface_layer_desc *desc,
-                          struct terrain_layer *layer)
+// Metres that the file's unit is; factors have none.
+static double find_unit(const struct loader *loader, const struct raster *raster, double mode)
 {
-    if (desc->scale == 0 || !isfinite(desc->scale) || !isfinite(desc->offset_m)) {
+    const struct raster_values *v = &raster->values;
+    if (mode == BLEND_MULTIPLY) {
+        return 1;
+    }
+    if (v->unit_m == 0) {
+        trl_log(&loader->quiet, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER,
+                "elevation %s: its unit \"%s\" is not known and taken for metres; the layer's "
+                "\"scale\" can correct that",
+                raster->path, v->unit);
+    }
+    return v->unit_m > 0 ? v->unit_m : 1;
+}
+
+trl_result load_set_scale(const struct loader *loader, const struct surface_layer_desc *desc,
+                          const struct raster *raster, struct terrain_layer *layer)
+{
+    const struct raster_values *v = &raster->values;
+    const double unit_m = find_unit(loader, raster, layer->mode);
+    const double scale = desc->scale * unit_m * v->scale;
+    const double offset_m = desc->scale * unit_m * v->offset + desc->offset_m;
+    if (scale == 0 || !isfinite(scale) || !isfinite(offset_m)) {
         return trl_fail(&loader->quiet, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                        "%s: a scale of %g and an offset of %g give no heights", desc->path,
-                        desc->scale, desc->offset_m);
+                        "%s: a scale of %g and an offset of %g give no heights (the file's own are "
+                        "%g and %g)",
+                        desc->path, desc->scale, desc->offset_m, v->scale, v->offset);
     }
     // Exaggerating every layer exaggerates their sum; factors are no heights.
     const double exaggeration = layer->mode == BLEND_MULTIPLY ? 1 : loader->desc->exaggeration;
-    layer->heights.scale = desc->scale * exaggeration;
-    layer->heights.offset_m = desc->offset_m * exaggeration;
+    layer->heights.scale = scale * exaggeration;
+    layer->heights.offset_m = offset_m * exaggeration;
     return TRL_OK;
 }
 
@@ -70,7 +94,7 @@ static trl_result load_elevation(struct loader *loader, const struct surface_lay
 {
     const struct load_below under = {loader->surface, layer->mode};
     const struct layer_fill below = {load_fill_height, &under};
-    trl_result result = load_set_scale(loader, desc, layer);
+    trl_result result = load_set_scale(loader, desc, raster, layer);
     if (result == TRL_OK) {
         result = layer_read_heights(raster, &below, layer);
     }
@@ -100,8 +124,30 @@ static trl_result check_size(const struct raster *raster)
     return raster->width >= 2 && raster->height >= 2
                ? TRL_OK
                : trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                          "%s: %u x %u pixels; a layer needs at least 2 x 2", raster->path,
-                          raster->width, raster->height);
+                          "%s: %u x %u pixels; a layer needs at least 2 x 2: lines and points have "
+                          "no area to show",
+                          raster->path, raster->width, raster->height);
+}
+
+static const char *name_of_key(const struct surface_layer_desc *desc)
+{
+    return desc->is_cover ? "snow" : KIND_NAMES[desc->kind];
+}
+
+// Another planet's map is drawn, since somebody may want that; Earth's coordinates are what many
+// maps of other planets have for want of better ones.
+static void check_body(const struct loader *loader, const struct surface_layer_desc *desc,
+                       const struct raster *raster)
+{
+    const double own_m = raster->body_radius_m, radius_m = loader->desc->radius_m;
+    const bool is_of_earth = own_m > 6.35e6 && own_m < 6.4e6;
+    if (own_m > 0 && !is_of_earth && fabs(own_m / radius_m - 1) > OTHER_BODY) {
+        trl_log(
+            loader->surface->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER,
+            "%s %s: its coordinates are those of a body of %.0f km, this planet has %.0f km: is "
+            "it the right file?",
+            name_of_key(desc), raster->path, own_m / 1e3, radius_m / 1e3);
+    }
 }
 
 static trl_result read_layer(struct loader *loader, const struct surface_layer_desc *desc,
@@ -151,6 +197,7 @@ static trl_result load_layer(struct loader *loader, const struct surface_layer_d
     if (result != TRL_OK) {
         return result;
     }
+    check_body(loader, desc, &item->raster);
     struct terrain_layer *layer = &s->layers[desc->kind][s->counts[desc->kind]];
     *layer = (struct terrain_layer){.ctx = s->ctx, .mode = desc->mode};
     if (desc->is_cover) {
@@ -187,10 +234,12 @@ static trl_result go_without(struct loader *loader, const struct surface_layer_d
     const trl_context *ctx = loader->surface->ctx;
     const bool is_bad = result == TRL_ERROR_INVALID || result == TRL_ERROR_IO;
     if (is_bad && !loader->desc->is_strict && is_there(desc->path)) {
-        trl_log(ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER, "%s; left out", loader->said);
+        trl_log(ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER, "%s %s; left out", name_of_key(desc),
+                loader->said);
         return TRL_OK;
     }
-    return loader->said[0] ? trl_fail(ctx, result, TRL_LOG_ITEM_RASTER, "%s", loader->said)
+    return loader->said[0] ? trl_fail(ctx, result, TRL_LOG_ITEM_RASTER, "%s %s", name_of_key(desc),
+                                      loader->said)
                            : result;
 }
 

@@ -37,10 +37,11 @@ double load_fill_height(const void *below, double latitude, double longitude);
 double load_whole_bytes(const struct loader *loader, const struct surface_layer_desc *desc,
                         const struct raster *raster);
 
-// Checks scale and offset, and sets those of the layer's heights. TRL_ERROR_INVALID.
+// Sets scale and offset of the layer's heights: the scene's, of metres that the file's own make of
+// its numbers. TRL_ERROR_INVALID.
 TRL_MUST_USE trl_result load_set_scale(const struct loader *loader,
                                        const struct surface_layer_desc *desc,
-                                       struct terrain_layer *layer);
+                                       const struct raster *raster, struct terrain_layer *layer);
 
 // Reads a mask that is held whole into layer and surface; with depths it is uploaded later.
 // As layer_load_mask.

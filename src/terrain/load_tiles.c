@@ -67,7 +67,7 @@ static trl_result take_elevation(struct loader *loader, const struct surface_lay
     const struct load_below under = {loader->surface, layer->mode};
     const struct layer_fill below = {load_fill_height, &under};
     const struct pyramid *p = &tiles->pyramid;
-    trl_result result = load_set_scale(loader, desc, layer);
+    trl_result result = load_set_scale(loader, desc, &p->raster, layer);
     if (result == TRL_OK) {
         result = layer_take_heights(&p->raster, p->whole[p->base_level], &below, layer);
         // Tiles hold nothing but heights.
@@ -143,11 +143,7 @@ static trl_result make_tiles(const struct loader *loader, const struct surface_l
     tiles->surface = loader->surface;
     tiles->is_elevation = desc->kind == SURFACE_ELEVATION;
     tiles->is_root = desc->kind == SURFACE_COLOUR || desc->kind == SURFACE_LIGHTS;
-    const trl_result result = pyramid_init(&loader->quiet, &pyramid, &tiles->pyramid);
-    if (result == TRL_OK) {
-        tiles->pyramid.ctx = tiles->pyramid.raster.ctx = loader->surface->ctx; // from here on
-    }
-    return result;
+    return pyramid_init(&loader->quiet, &pyramid, &tiles->pyramid);
 }
 
 trl_result load_tiled(struct loader *loader, const struct surface_layer_desc *desc,
@@ -172,6 +168,7 @@ trl_result load_tiled(struct loader *loader, const struct surface_layer_desc *de
         stream_drop(s->stream);
         return result;
     }
+    tiles->pyramid.ctx = tiles->pyramid.raster.ctx = s->ctx; // the loader is gone soon
     tiles->layer = layer;
     layer->stream = s->stream;
     layer->tiles = tiles;

@@ -264,8 +264,11 @@ static trl_result fill_gaps(const struct layer_fill *below, struct gaps *gaps,
 
 static trl_result fail_all_void(const struct raster *raster)
 {
-    return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                    "%s: no pixel of it has data", raster->path);
+    return trl_fail(
+        raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+        "%s: no pixel of it has data; is its missing value right? (gdalinfo; gdal_translate "
+        "-a_nodata)",
+        raster->path);
 }
 
 trl_result voids_fill_heights(const struct raster *raster, const struct layer_fill *below,

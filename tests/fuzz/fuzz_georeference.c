@@ -79,7 +79,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     gdal_catch_begin(&catcher, ctx);
     struct raster raster = {.ctx = ctx, .path = mem_strdup(ctx, "fuzz")};
     raster.dataset = make_dataset(text);
-    if (raster.dataset && raster_read_size_and_type(&raster) == TRL_OK &&
+    if (raster.dataset && raster_read_facts(&raster) == TRL_OK &&
         raster_read_georeference(&raster) == TRL_OK) {
         check(&raster);
     }

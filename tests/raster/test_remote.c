@@ -2,18 +2,11 @@
 // SPDX-License-Identifier: MIT
 // Rasters behind a network, served on the loopback by range_server.py, which counts: only when
 // allowed, only the named file, and only the parts that are needed. The argument is the server.
-#include "raster/gdal.h"
+#include "fixture.h"
 #include "raster/remote.h"
 #include "raster/tile_cache.h"
 
-// cmocka wants these before its own header
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 #include <cpl_string.h>
-#include <gdal.h>
 #include <ogr_srs_api.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,29 +17,6 @@
 
 #define HOST "127.0.0.1"
 static const char *server_path;
-
-struct fixture {
-    trl_context *ctx;
-    char folder[64];
-    int errors, warnings;
-    char last[2048], warning[2048];
-    pid_t server;
-    int to_server; // its standard input
-    int port;
-};
-
-static void keep_log(void *user, trl_log_level level, trl_log_item item, const char *message)
-{
-    struct fixture *f = user;
-    (void)item;
-    if (level == TRL_LOG_ERROR) {
-        f->errors++;
-        snprintf(f->last, sizeof f->last, "%s", message);
-    } else if (level == TRL_LOG_WARN) {
-        f->warnings++;
-        snprintf(f->warning, sizeof f->warning, "%s", message);
-    }
-}
 
 static void start_server(struct fixture *f)
 {
@@ -70,45 +40,33 @@ static void start_server(struct fixture *f)
     fclose(told);
 }
 
-static int set_up_allowed(void **state, bool allows_remote)
+static int set_up_served(void **state, bool allows_remote)
 {
-    struct fixture *f = calloc(1, sizeof *f);
-    snprintf(f->folder, sizeof f->folder, "/tmp/terrella-remote-XXXXXX");
-    assert_non_null(mkdtemp(f->folder));
-    trl_context_desc desc = trl_context_desc_default();
-    desc.log = keep_log;
-    desc.log_user = f;
-    desc.allows_remote = allows_remote;
-    assert_int_equal(trl_context_create(&desc, &f->ctx), TRL_OK);
+    if (set_up_allowed(state, allows_remote) != 0) {
+        return -1;
+    }
     setenv("no_proxy", HOST, 1);
-    gdal_register();
-    start_server(f);
-    *state = f;
+    start_server(*state);
     return 0;
 }
 
-static int set_up(void **state)
+static int set_up_allowing(void **state)
 {
-    return set_up_allowed(state, true);
+    return set_up_served(state, true);
 }
 
 static int set_up_refusing(void **state)
 {
-    return set_up_allowed(state, false);
+    return set_up_served(state, false);
 }
 
-static int tear_down(void **state)
+static int tear_down_server(void **state)
 {
-    struct fixture *f = *state;
+    const struct fixture *f = *state;
     close(f->to_server);
     int status = 0;
     waitpid(f->server, &status, 0);
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", f->folder);
-    const int removed = system(command);
-    trl_context_destroy(&f->ctx);
-    free(f);
-    return removed;
+    return tear_down(state);
 }
 
 // Noise, which no codec makes smaller: bytes served tell how many texels were.
@@ -410,20 +368,20 @@ static void what_is_not_there_is_one_error(void **state)
     assert_int_equal(f->errors, 1);
 }
 
+#define SERVED(name) cmocka_unit_test_setup_teardown(name, set_up_allowing, tear_down_server)
+
 int main(int argc, char **argv)
 {
     server_path = argc > 1 ? argv[1] : "range_server.py";
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(nothing_is_fetched_unless_allowed, set_up_refusing,
-                                        tear_down),
-        cmocka_unit_test_setup_teardown(other_virtual_files_stay_refused, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(of_a_cloud_file_only_parts_are_fetched, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_server_that_fails_is_given_up_and_asked_again_later,
-                                        set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_server_that_says_nothing_is_given_up, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_large_file_without_overviews_is_refused, set_up,
-                                        tear_down),
-        cmocka_unit_test_setup_teardown(what_is_not_there_is_one_error, set_up, tear_down),
+                                        tear_down_server),
+        SERVED(other_virtual_files_stay_refused),
+        SERVED(of_a_cloud_file_only_parts_are_fetched),
+        SERVED(a_server_that_fails_is_given_up_and_asked_again_later),
+        SERVED(a_server_that_says_nothing_is_given_up),
+        SERVED(a_large_file_without_overviews_is_refused),
+        SERVED(what_is_not_there_is_one_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,17 +2,10 @@
 // SPDX-License-Identifier: MIT
 // Pyramids of tiles and their cache, on files that the tests make: what tiles hold, what stays
 // within the budget, what happens to broken files, and that nothing hangs.
-#include "raster/gdal.h"
+#include "fixture.h"
 #include "raster/tile_cache.h"
 
-// cmocka wants these before its own header
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 #include <cpl_string.h>
-#include <gdal.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -20,49 +13,8 @@
 #include <string.h>
 #include <unistd.h>
 
-struct fixture {
-    trl_context *ctx;
-    char folder[64];
-    int errors, warnings;
-    char last[2048];
-};
-
-static void keep_log(void *user, trl_log_level level, trl_log_item item, const char *message)
-{
-    struct fixture *f = user;
-    (void)item;
-    f->errors += level == TRL_LOG_ERROR;
-    f->warnings += level == TRL_LOG_WARN;
-    if (level <= TRL_LOG_WARN) {
-        snprintf(f->last, sizeof f->last, "%s", message);
-    }
-}
-
-static int set_up(void **state)
-{
-    struct fixture *f = calloc(1, sizeof *f);
-    snprintf(f->folder, sizeof f->folder, "/tmp/terrella-tiles-XXXXXX");
-    trl_context_desc desc = trl_context_desc_default();
-    desc.log = keep_log;
-    desc.log_user = f;
-    gdal_register();
-    *state = f;
-    return mkdtemp(f->folder) && trl_context_create(&desc, &f->ctx) == TRL_OK ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    struct fixture *f = *state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", f->folder);
-    const int status = system(command);
-    trl_context_destroy(&f->ctx);
-    free(f);
-    return status;
-}
-
 // A globe of height = width / 2, in tiles of 256.
-struct recipe {
+struct ramp {
     int width;
     GDALDataType type;
     int bands;
@@ -71,12 +23,12 @@ struct recipe {
 };
 
 // Means over any rectangle of pixels are the value at its middle, so every level is known.
-static double ramp_at(const struct recipe *r, double x, double y)
+static double ramp_at(const struct ramp *r, double x, double y)
 {
     return r->type == GDT_Byte ? 10 + 200 * x / r->width : 8 * x - 3 * y;
 }
 
-static const char *make_file(struct fixture *f, const struct recipe *r)
+static const char *make_ramp(struct fixture *f, const struct ramp *r)
 {
     static char path[128];
     snprintf(path, sizeof path, "%s/%d-%d.tif", f->folder, r->width, r->overviews);
@@ -114,20 +66,20 @@ static const char *make_file(struct fixture *f, const struct recipe *r)
     return path;
 }
 
-static const struct recipe HEIGHTS = {.width = 2100, .type = GDT_Int16, .bands = 1, .overviews = 3};
+static const struct ramp HEIGHTS = {.width = 2100, .type = GDT_Int16, .bands = 1, .overviews = 3};
 
-static void open_pyramid(struct fixture *f, const struct recipe *r, enum pyramid_format format,
+static void open_pyramid(struct fixture *f, const struct ramp *r, enum pyramid_format format,
                          struct pyramid *out)
 {
     struct raster raster;
-    assert_int_equal(raster_open(f->ctx, make_file(f, r), &raster), TRL_OK);
+    assert_int_equal(raster_open(f->ctx, make_ramp(f, r), &raster), TRL_OK);
     const struct pyramid_desc desc = {&raster, format, true, true, true};
     assert_int_equal(pyramid_init(f->ctx, &desc, out), TRL_OK);
     raster_finish(&raster);
 }
 
 // What a level has at a texel beyond its borders: around the circle, and over the poles.
-static double level_value(const struct recipe *r, const struct pyramid *p, uint32_t level, int x,
+static double level_value(const struct ramp *r, const struct pyramid *p, uint32_t level, int x,
                           int y)
 {
     const int width = (int)p->levels[level].width, height = (int)p->levels[level].height;
@@ -139,7 +91,7 @@ static double level_value(const struct recipe *r, const struct pyramid *p, uint3
     return ramp_at(r, (x + 0.5) * r->width / width, (y + 0.5) * (r->width / 2) / height);
 }
 
-static void check_tile(struct pyramid_reader *reader, const struct recipe *r, uint32_t level,
+static void check_tile(struct pyramid_reader *reader, const struct ramp *r, uint32_t level,
                        uint32_t column, uint32_t row)
 {
     static int16_t texels[PYRAMID_TEXELS];
@@ -164,7 +116,7 @@ static void check_tile(struct pyramid_reader *reader, const struct recipe *r, ui
     }
 }
 
-static void check_all_tiles(struct fixture *f, const struct recipe *r)
+static void check_all_tiles(struct fixture *f, const struct ramp *r)
 {
     struct pyramid pyramid;
     open_pyramid(f, r, PYRAMID_INT16, &pyramid);
@@ -184,7 +136,7 @@ static void check_all_tiles(struct fixture *f, const struct recipe *r)
 static void tiles_hold_their_texels_and_their_neighbours(void **state)
 {
     check_all_tiles(*state, &HEIGHTS);
-    struct recipe r = HEIGHTS;
+    struct ramp r = HEIGHTS;
     r.overviews = 0;
     check_all_tiles(*state, &r);
 }
@@ -193,7 +145,7 @@ static void tiles_hold_their_texels_and_their_neighbours(void **state)
 static void odd_sizes_are_rounded_up(void **state)
 {
     struct fixture *f = *state;
-    struct recipe r = HEIGHTS;
+    struct ramp r = HEIGHTS;
     r.width = 2102;
     struct pyramid p;
     open_pyramid(f, &r, PYRAMID_INT16, &p);
@@ -214,7 +166,7 @@ static void odd_sizes_are_rounded_up(void **state)
 static void void_texels_do_not_count_in_means(void **state)
 {
     struct fixture *f = *state;
-    struct recipe r = HEIGHTS;
+    struct ramp r = HEIGHTS;
     r.nodata = -9999;
     r.overviews = 0;
     struct pyramid p;
@@ -239,7 +191,7 @@ static void void_texels_do_not_count_in_means(void **state)
 static void colours_are_tiles_too(void **state)
 {
     struct fixture *f = *state;
-    const struct recipe r = {.width = 1400, .type = GDT_Byte, .bands = 3, .overviews = 0};
+    const struct ramp r = {.width = 1400, .type = GDT_Byte, .bands = 3, .overviews = 0};
     struct pyramid p;
     open_pyramid(f, &r, PYRAMID_RGBA8, &p);
     struct pyramid_reader reader;
@@ -482,7 +434,7 @@ static void what_the_next_frame_does_not_want_is_dropped(void **state)
 static void a_truncated_file_is_reported_once(void **state)
 {
     struct fixture *f = *state;
-    struct recipe r = HEIGHTS;
+    struct ramp r = HEIGHTS;
     r.overviews = 0; // whose tiles would be what is cut off
     struct pyramid p;
     open_pyramid(f, &r, PYRAMID_INT16, &p);
@@ -620,11 +572,11 @@ static void waiting_can_be_cancelled(void **state)
 static void a_large_file_without_overviews_is_told_of(void **state)
 {
     struct fixture *f = *state;
-    struct recipe r = {.width = 8400, .type = GDT_Byte, .bands = 1, .overviews = 0};
+    struct ramp r = {.width = 8400, .type = GDT_Byte, .bands = 1, .overviews = 0};
     struct pyramid p;
     open_pyramid(f, &r, PYRAMID_UINT8, &p);
     assert_int_equal(f->warnings, 1);
-    assert_non_null(strstr(f->last, "without overviews"));
+    assert_non_null(strstr(f->warning, "without overviews"));
     assert_int_equal(p.base_level, 2); // 2100: tiles of level 1 average four pixels each
     pyramid_finish(&p);
     r.overviews = 3;
@@ -632,24 +584,6 @@ static void a_large_file_without_overviews_is_told_of(void **state)
     assert_int_equal(f->warnings, 1);
     assert_int_equal(p.base_level, 4);
     pyramid_finish(&p);
-}
-
-static void *allocate_counted(void *user, size_t bytes)
-{
-    int *left = user;
-    return __atomic_fetch_sub(left, 1, __ATOMIC_RELAXED) > 0 ? malloc(bytes) : NULL;
-}
-
-static void *reallocate_plain(void *user, void *block, size_t bytes)
-{
-    (void)user;
-    return realloc(block, bytes);
-}
-
-static void release_plain(void *user, void *block)
-{
-    (void)user;
-    free(block);
 }
 
 static trl_result read_one_tile(trl_context *ctx, const struct raster *raster)
@@ -684,12 +618,9 @@ static void every_failed_allocation_is_survived(void **state)
 {
     struct fixture *f = *state;
     struct raster raster;
-    assert_int_equal(raster_open(f->ctx, make_file(f, &HEIGHTS), &raster), TRL_OK);
+    assert_int_equal(raster_open(f->ctx, make_ramp(f, &HEIGHTS), &raster), TRL_OK);
     int left = 1 << 20;
-    trl_context_desc desc = trl_context_desc_default();
-    desc.allocator = (trl_allocator){allocate_counted, reallocate_plain, release_plain, &left};
-    trl_context *ctx = NULL;
-    assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
+    trl_context *ctx = make_counting_context(&left);
     trl_result result = TRL_ERROR_MEMORY;
     int allowed = 0;
     for (; result != TRL_OK && allowed < 40; allowed++) {
@@ -701,8 +632,6 @@ static void every_failed_allocation_is_survived(void **state)
     trl_context_destroy(&ctx);
     raster_finish(&raster);
 }
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
 int main(void)
 {
