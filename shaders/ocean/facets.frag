@@ -6,19 +6,25 @@
 #include "shared/sea.glsl"
 
 uniform sampler2D u_position; // relative to the camera, m
+uniform sampler2D u_level;    // of displaced sea: see join.frag
+uniform float u_has_level;    // 1: there is such
 uniform sampler2D u_albedo;   // a: part that is open water
 uniform sampler2D u_lights;   // a: code of the water's depth
 uniform float u_pixel_rad;
 
 layout(location = 0) out vec4 o_facet;
 
-vec4 facet(vec3 position, float depth)
+// `level`: the place that waves have moved to `position`, and the cosine between view and normal
+// there; w 0: water that lies level.
+vec4 facet(vec3 position, vec4 level, float depth)
 {
-    GerstnerPlace p = waves_place(position);
+    GerstnerPlace p = waves_place(level.w > 0.0 ? level.xyz : position);
     vec3 up = vec3(p.vx, p.vy, p.vz);
     vec3 way = u_wave_local_from_planet * position;
     float side = length(way) * u_pixel_rad;
     float mu = clamp(-dot(up, way) / max(length(way), 1.0e-6), 1.0e-3, 1.0);
+    // Where a wave turns away no pixel is longer on it than on level water: crests are round.
+    mu = max(mu, level.w);
     // A pixel on the ground: its own width across, longer by 1 / mu along the view.
     vec2 flat_way = way.xy / max(length(way.xy), 1.0e-6);
     vec2 along = flat_way * (side / mu);
@@ -40,6 +46,7 @@ void main()
     for (int i = 0; i < count; i++) {
         float code = texelFetch(u_lights, pixel, 0).a;
         float depth = code > 0.0 ? sea_code_depth(code) : 1.0e6;
-        o_facet = facet(texelFetch(u_position, pixel, 0).xyz, depth);
+        vec4 level = u_has_level * texelFetch(u_level, pixel, 0);
+        o_facet = facet(texelFetch(u_position, pixel, 0).xyz, level, depth);
     }
 }

@@ -19,6 +19,7 @@
 #include "shared/albedo.glsl"
 #include "terrain/layers.glsl"
 #include "terrain/shadow.glsl"
+#include "terrain/water.glsl"
 
 uniform highp sampler2D u_position;
 uniform mat3 u_local_from_planet; // at the camera's ground point, which is the anchor
@@ -39,20 +40,6 @@ uniform sampler2D u_colour2;
 #endif
 #if COLOUR_COUNT > 3
 uniform sampler2D u_colour3;
-#endif
-#if WATER_COUNT > 0
-uniform vec4 u_water[4 * LAYER_VECTORS];
-uniform vec4 u_water_modes;
-uniform sampler2D u_water0;
-#endif
-#if WATER_COUNT > 1
-uniform sampler2D u_water1;
-#endif
-#if WATER_COUNT > 2
-uniform sampler2D u_water2;
-#endif
-#if WATER_COUNT > 3
-uniform sampler2D u_water3;
 #endif
 #if LIGHTS_COUNT > 0
 uniform vec4 u_lights[4 * LAYER_VECTORS];
@@ -130,15 +117,6 @@ vec3 layer_over_picture(vec3 below, sampler2D picture, LayerFrame frame, float m
     return mix(below, value, c.w * at.z);
 }
 
-// Of a mask the part that is water, and where it tells depths the code of shared/sea.glsl.
-vec2 layer_over_mask(vec2 below, sampler2D mask, LayerFrame frame, float mode, Ground g,
-                     float log2_footprint)
-{
-    vec3 at = layer_locate(frame, g);
-    vec2 texel = layer_fetch(mask, frame, at.xy, log2_footprint - frame.texel.z).xy;
-    return vec2(layer_blend(mode, below.x, texel.x, at.z), mix(below.y, texel.y, at.z));
-}
-
 // A picture of normals: red to the map's right, green up, blue out of it, each -1 to 1.
 vec4 layer_over_normal(vec4 below, sampler2D normals, LayerFrame frame, float mode, Tangent t)
 {
@@ -189,24 +167,6 @@ vec3 terrain_albedo(vec3 below, Ground g, float log2_footprint)
                            log2_footprint);
 #endif
     return c;
-}
-
-vec2 terrain_water(Ground g, float log2_footprint)
-{
-    vec2 w = vec2(0.0);
-#if WATER_COUNT > 0
-    w = layer_over_mask(w, u_water0, LAYER_FRAME(u_water, 0), u_water_modes.x, g, log2_footprint);
-#endif
-#if WATER_COUNT > 1
-    w = layer_over_mask(w, u_water1, LAYER_FRAME(u_water, 1), u_water_modes.y, g, log2_footprint);
-#endif
-#if WATER_COUNT > 2
-    w = layer_over_mask(w, u_water2, LAYER_FRAME(u_water, 2), u_water_modes.z, g, log2_footprint);
-#endif
-#if WATER_COUNT > 3
-    w = layer_over_mask(w, u_water3, LAYER_FRAME(u_water, 3), u_water_modes.w, g, log2_footprint);
-#endif
-    return w;
 }
 
 vec3 terrain_lights(Ground g, float log2_footprint)

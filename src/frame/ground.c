@@ -154,6 +154,9 @@ static trl_result make_waves(struct ground *ground, const struct trl_scene *scen
     if (result == TRL_OK) {
         result = facets_init(ground->gpu, &ground->waves, &ground->facets);
     }
+    if (result == TRL_OK) {
+        result = sea_mesh_init(&ground->surface, &ground->facets.waves, &ground->sea_mesh);
+    }
     ground->has_waves = result == TRL_OK;
     return result;
 }
@@ -225,6 +228,7 @@ static void finish_buffers(struct ground *ground)
 void ground_finish(struct ground *ground)
 {
     finish_buffers(ground);
+    sea_mesh_finish(&ground->sea_mesh);
     facets_finish(&ground->facets);
     waves_finish(&ground->waves);
     terrain_sky_view_finish(&ground->sky_view);
@@ -301,20 +305,43 @@ trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height)
     if (result == TRL_OK && ground->has_waves) {
         result = facets_resize(&ground->facets, width, height);
     }
+    if (result == TRL_OK && ground->has_waves) {
+        result = sea_mesh_resize(&ground->sea_mesh, &ground->depth);
+    }
     if (result != TRL_OK) {
         finish_buffers(ground);
     }
     return result;
 }
 
+// Of ground and displaced sea, or of the ground alone.
+static const struct gpu_texture *find_position(const struct ground *ground)
+{
+    return ground->sea_mesh.plan.is_seen ? &ground->sea_mesh.position : &ground->position;
+}
+
+static const struct gpu_texture *find_level(const struct ground *ground)
+{
+    return ground->sea_mesh.plan.is_seen ? &ground->sea_mesh.level : NULL;
+}
+
 static trl_result draw_sky_view(struct ground *ground, const struct camera *camera)
 {
-    const struct terrain_sky_view_inputs inputs = {camera, &ground->position, &ground->normal,
+    const struct terrain_sky_view_inputs inputs = {camera, find_position(ground), &ground->normal,
                                                    &ground->albedo};
     const trl_result result = terrain_sky_view_update(&ground->sky_view);
     return result == TRL_OK
                ? terrain_sky_view_draw(&ground->sky_view, &inputs, &ground->sky_view_target)
                : result;
+}
+
+// The models whose water has waves have them as they stand.
+static trl_result draw_sea_mesh(struct ground *ground, const struct camera *camera,
+                                const struct ground_extras *extras)
+{
+    const struct sea_mesh_inputs inputs = {camera, extras->time_s, &ground->position};
+    ground->sea_mesh.plan.is_seen = false;
+    return extras->has_facets ? sea_mesh_draw(&ground->sea_mesh, &inputs) : TRL_OK;
 }
 
 trl_result ground_draw(struct ground *ground, const struct camera *camera,
@@ -340,16 +367,21 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
         frame_clock_part(clock, "shadow");
         result = terrain_shadow_update(&ground->shadow, camera);
     }
+    if (result == TRL_OK && ground->has_waves) {
+        frame_clock_part(clock, "sea mesh");
+        result = draw_sea_mesh(ground, camera, extras);
+    }
     if (result == TRL_OK) {
         frame_clock_part(clock, "surface");
-        const struct terrain_compose_inputs inputs = {camera, &ground->position, &ground->shadow,
-                                                      ground->region_m};
+        const struct terrain_compose_inputs inputs = {camera, find_position(ground),
+                                                      &ground->shadow, ground->region_m};
         result = terrain_compose_draw(&ground->compose, &inputs, &ground->surface_target);
     }
     if (result == TRL_OK && ground->has_waves && extras->has_facets) {
         frame_clock_part(clock, "waves");
-        const struct facets_inputs inputs = {camera, extras->time_s, &ground->position,
-                                             &ground->albedo, &ground->lights};
+        const struct facets_inputs inputs = {
+            camera,          extras->time_s, find_position(ground), find_level(ground),
+            &ground->albedo, &ground->lights};
         result = facets_draw(&ground->facets, &inputs);
     }
     if (result == TRL_OK && extras->has_sky_view) {
@@ -364,7 +396,7 @@ struct sky_surface ground_surface(const struct ground *ground)
     if (ground->is_bare) {
         return (struct sky_surface){0};
     }
-    return (struct sky_surface){.position = &ground->position,
+    return (struct sky_surface){.position = find_position(ground),
                                 .albedo = &ground->albedo,
                                 .normal = &ground->normal,
                                 .lights = &ground->lights,

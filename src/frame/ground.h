@@ -20,6 +20,7 @@
 #include "frame/clock.h"
 #include "gpu/target.h"
 #include "ocean/facets.h"
+#include "ocean/sea_mesh.h"
 #include "scene/scene.h"
 #include "sky/sky.h"
 #include "terrain/compose.h"
@@ -42,6 +43,7 @@ struct ground {
     struct terrain_compose compose;
     struct waves waves;
     struct facets facets;
+    struct sea_mesh sea_mesh; // the positions of the last frame are its own where it is seen
     bool has_waves;
     struct terrain_sky_view sky_view;
     struct gpu_texture position, depth, albedo, normal, lights, region;

@@ -66,6 +66,8 @@ trl_result facets_draw(struct facets *facets, const struct facets_inputs *in)
     const double height_m = vec3_length(in->camera->position_m) - facets->waves.waves->radius_m;
     wave_texture_bind(&facets->waves, fmax(height_m, 0) * pixel_rad, program);
     gpu_program_set_texture(program, "u_position", in->position);
+    gpu_program_set_texture(program, "u_level", in->level ? in->level : in->position);
+    gpu_program_set_float(program, "u_has_level", in->level ? 1 : 0);
     gpu_program_set_texture(program, "u_albedo", in->albedo);
     gpu_program_set_texture(program, "u_lights", in->lights);
     gpu_program_set_float(program, "u_pixel_rad", (float)pixel_rad);

@@ -27,7 +27,9 @@ TRL_MUST_USE trl_result facets_resize(struct facets *facets, uint32_t width, uin
 struct facets_inputs {
     const struct camera *camera;
     double time_s;
-    const struct gpu_texture *position, *albedo, *lights; // of frame/ground.h
+    const struct gpu_texture *position; // of frame/ground.h
+    const struct gpu_texture *level;    // of the sea's mesh; NULL: all water is level
+    const struct gpu_texture *albedo, *lights;
 };
 // Draws all of the texture.
 TRL_MUST_USE trl_result facets_draw(struct facets *facets, const struct facets_inputs *inputs);

@@ -12,7 +12,7 @@ import tempfile
 
 # Lowest first: a folder may include itself and what stands before it. Those in one tuple do not see each other.
 LAYERS = [("shared",), ("base",), ("spectrum",), ("scatter",), ("reference",), ("raster",), ("gpu",),
-          ("sky", "terrain", "ocean", "cloud"), ("scene",), ("frame",), ("api",)]
+          ("sky", "terrain"), ("ocean", "cloud"), ("scene",), ("frame",), ("api",)]
 RANK = {name: rank for rank, names in enumerate(LAYERS) for name in names}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 
