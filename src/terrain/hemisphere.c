@@ -21,6 +21,11 @@
 // HEMISPHERE_CELLS to a side of the grid in chunks of CHUNK_CELLS: a sixth of it, as much as a view
 // of 60 degrees along the ground sees, is 570 thousand triangles.
 enum { CHUNK_CELLS = TRL_HEMISPHERE_STEP };
+// Where no ground is in view the grid is made anew after this part of the way that the camera may
+// go, so that it need not change when ground is. That is found with rays through the picture's lower
+// border, in steps that grow, above the ground by a part of the way.
+static const double UNSEEN_MOVE = 0.2, RAY_STEP = 1.2, RAY_MARGIN = 0.02;
+enum { RAYS = 8 };
 // The higher the camera, the more of the grid is in view at once, and the smaller it is there:
 // above these parts of the radius every second and every fourth vertex is enough.
 enum { MESHES = 3 };
@@ -251,11 +256,47 @@ static HemisphereRings find_rings(const struct hemisphere *h)
     return (HemisphereRings){power / (power - log(near)), power};
 }
 
+// Whether a ray passes over the ground, as far as it is held, by a little.
+static bool is_above_ground(const struct hemisphere *h, struct vec3 ray)
+{
+    const double radius_m = h->surface->radius_m;
+    const double far = 2 * radius_m * h->projection.reach_rad + h->projection.height_m;
+    bool is_above = true;
+    for (double way = h->projection.height_m / 2; way < far && is_above; way *= RAY_STEP) {
+        const struct vec3 at = vec3_add(h->camera.position_m, vec3_scale(ray, way));
+        const double altitude = vec3_length(at) - radius_m;
+        is_above = altitude > h->projection.max_altitude_m ||
+                   altitude > surface_altitude_of_held(h->surface, at) + RAY_MARGIN * way;
+    }
+    return is_above;
+}
+
+// Section 3: while the camera sees no ground, as in the sky, nobody sees the grid change. Ground
+// anywhere in a picture that is upright stands on its lower border.
+static bool is_unseen(const struct hemisphere *h)
+{
+    const struct camera *c = &h->camera;
+    bool is_above = vec3_dot(c->up, h->projection.anchor.up) > 0;
+    for (int i = 0; i <= RAYS && is_above; i++) {
+        const double x = (2.0 * i / RAYS - 1) * c->tan_half_fov_x;
+        const struct vec3 aside =
+            vec3_sub(vec3_scale(c->right, x), vec3_scale(c->up, c->tan_half_fov_y));
+        is_above = is_above_ground(h, vec3_normalize(vec3_add(c->forward, aside)));
+    }
+    return is_above;
+}
+
+static bool is_due(const struct hemisphere *h)
+{
+    return projection_is_stale(&h->projection, h->surface, 0, &h->camera) ||
+           (projection_moved(&h->projection, &h->camera) > UNSEEN_MOVE && is_unseen(h));
+}
+
 static trl_result update(struct mesher *base, const struct camera *camera)
 {
     struct hemisphere *h = (struct hemisphere *)base;
     h->camera = *camera;
-    if (!projection_is_stale(&h->projection, h->surface, 0, camera)) {
+    if (!is_due(h)) {
         return TRL_OK;
     }
     h->projection = projection_make(h->surface, camera);

@@ -30,7 +30,12 @@ bool projection_is_stale(const struct projection *p, const struct surface *surfa
 {
     return !p->is_made ||
            surface_has_changed(surface, p->revision, p->anchor.up, p->reach_rad + more_rad) ||
-           vec3_length(vec3_sub(camera->position_m, p->position_m)) > p->threshold_m;
+           projection_moved(p, camera) > 1;
+}
+
+double projection_moved(const struct projection *p, const struct camera *camera)
+{
+    return vec3_length(vec3_sub(camera->position_m, p->position_m)) / p->threshold_m;
 }
 
 struct surface_eye projection_eye(const struct projection *p, const struct surface *surface,

@@ -33,6 +33,8 @@ struct projection {
 // and `more_rad`.
 bool projection_is_stale(const struct projection *p, const struct surface *surface, double more_rad,
                          const struct camera *camera);
+// How far the camera has moved of how far it may. Only of one that is made.
+double projection_moved(const struct projection *p, const struct camera *camera);
 struct projection projection_make(const struct surface *surface, const struct camera *camera);
 
 // The eye of surface_select for what a projection shows, and `more_rad` around it.

@@ -271,6 +271,30 @@ static void test_small_motion_moves_no_vertex(void **state)
     destroy_planet(&p);
 }
 
+// Below the threshold, while the camera looks at the sky; never while it sees the ground.
+static void test_mesh_changes_where_nobody_sees_it(void **state)
+{
+    struct planet p;
+    make_planet(*state, &p);
+    struct camera_place place = PLACES[4];
+    place.pitch = -20;
+    place.fov = 60;
+    struct camera ground = place_camera(&p, place, 400);
+    place.pitch = 70;
+    struct camera sky = place_camera(&p, place, 400);
+    assert_int_equal(mesher_update(p.mesher, &ground), TRL_OK);
+    const struct vec3 step = vec3_scale(ground.right, 400 * 0.05); // a third of the threshold
+    ground.position_m = vec3_add(ground.position_m, step);
+    assert_int_equal(mesher_update(p.mesher, &ground), TRL_OK);
+    assert_int_equal(p.mesher->stats.projections, 1);
+    assert_int_equal(mesher_update(p.mesher, &sky), TRL_OK);
+    assert_int_equal(p.mesher->stats.projections, 1); // it has not moved
+    sky.position_m = ground.position_m;
+    assert_int_equal(mesher_update(p.mesher, &sky), TRL_OK);
+    assert_int_equal(p.mesher->stats.projections, 2);
+    destroy_planet(&p);
+}
+
 static void test_chunks_out_of_sight_are_not_drawn(void **state)
 {
     struct planet p;
@@ -296,6 +320,7 @@ int main(void)
         cmocka_unit_test(test_pixels_agree_with_a_ray_caster),
         cmocka_unit_test(test_there_are_no_holes),
         cmocka_unit_test(test_small_motion_moves_no_vertex),
+        cmocka_unit_test(test_mesh_changes_where_nobody_sees_it),
         cmocka_unit_test(test_chunks_out_of_sight_are_not_drawn),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
