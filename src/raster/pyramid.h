@@ -23,6 +23,9 @@ enum {
     PYRAMID_BORDER = 3,
     PYRAMID_SIDE = PYRAMID_TILE + 2 * PYRAMID_BORDER,
     PYRAMID_TEXELS = PYRAMID_SIDE * PYRAMID_SIDE,
+    // A window may be a tile and so much around it.
+    PYRAMID_MARGIN = 16,
+    PYRAMID_WINDOW = PYRAMID_SIDE + 2 * PYRAMID_MARGIN,
     PYRAMID_MAX_LEVELS = 16
 };
 
@@ -78,7 +81,7 @@ bool pyramid_has_tile(const struct pyramid *pyramid, const struct pyramid_tile *
 struct pyramid_reader {
     const struct pyramid *pyramid;
     struct raster raster; // opened at the first tile that is not held whole
-    void *patch;          // owned; a tile's texels as they are read
+    void *patch;          // owned; a window's texels as they are read
 };
 
 // Errors go to `ctx`, which may be another than the pyramid's. TRL_ERROR_MEMORY.
@@ -90,5 +93,31 @@ void pyramid_reader_finish(struct pyramid_reader *reader);
 // Returns TRL_OK; TRL_ERROR_IO; TRL_ERROR_INVALID; TRL_ERROR_MEMORY.
 TRL_MUST_USE trl_result pyramid_read(struct pyramid_reader *reader, const struct pyramid_tile *tile,
                                      void *texels);
+
+// A rectangle of texels of a level, which may stick out of it: there stands what tiles have in
+// their borders. No side is longer than PYRAMID_WINDOW.
+struct pyramid_window {
+    uint32_t level;
+    int64_t x, y;
+    uint32_t width, height;
+};
+
+// A tile with its border.
+struct pyramid_window pyramid_window_of(const struct pyramid_tile *tile);
+
+// Rows of the window's texels, as they are in the file. Returns as pyramid_read.
+TRL_MUST_USE trl_result pyramid_read_window(struct pyramid_reader *reader,
+                                            const struct pyramid_window *window, void *texels);
+
+// Fills texels without heights in a window that was read (of int16 and floats) with what the next
+// coarser level has there, linear between its texels, and so on. What is void in the coarsest level
+// that is read from the file and in those held whole stays so. Returns as pyramid_read.
+TRL_MUST_USE trl_result pyramid_fill_gaps(struct pyramid_reader *reader,
+                                          const struct pyramid_window *window, void *texels);
+
+// Private to pyramid.c and pyramid_read.c: pixels of a level, from an opened raster of its size.
+TRL_MUST_USE trl_result pyramid_read_pixels(const struct pyramid *pyramid,
+                                            const struct raster *level,
+                                            const struct raster_window *window, void *out);
 
 #endif // RASTER_PYRAMID_H

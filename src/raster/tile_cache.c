@@ -274,7 +274,8 @@ static trl_result read_tile(struct loader *loader, const struct tile_source *sou
     }
     out->range = (struct tile_range){NAN, NAN};
     if (result == TRL_OK && source->prepare) {
-        source->prepare(source->user, &key->tile, out->texels, &out->range);
+        const struct tile_load load = {key->tile, out->texels, &out->range};
+        result = source->prepare(source->user, reader, &load);
     }
     if (result != TRL_OK) {
         mem_free(&loader->quiet, out->texels);

@@ -20,13 +20,20 @@ struct tile_range {
     float min, max;
 };
 
+// A tile that was read, and what is found about it.
+struct tile_load {
+    struct pyramid_tile tile;
+    void *texels; // PYRAMID_TEXELS
+    struct tile_range *range;
+};
+
 // Where tiles come from.
 struct tile_source {
     const struct pyramid *pyramid; // must outlive the cache
-    // Changes texels in place after they were read. On a loader's thread, several at once.
-    // NULL: nothing is changed.
-    void (*prepare)(const void *user, const struct pyramid_tile *tile, void *texels,
-                    struct tile_range *range);
+    // Changes texels in place after `reader` read them; it may read more with that. On a loader's
+    // thread, several at once. What it returns is as if reading had. NULL: nothing is changed.
+    trl_result (*prepare)(const void *user, struct pyramid_reader *reader,
+                          const struct tile_load *load);
     const void *user;
 };
 

@@ -61,18 +61,36 @@ static enum pyramid_format choose_format(enum surface_kind kind, const struct ra
     }
 }
 
+// Finer tiles fill their gaps from this level.
+static void give_filled(struct pyramid *p, const struct terrain_layer *layer)
+{
+    const struct layer_heights *h = &layer->heights;
+    float *floats = p->whole[p->base_level];
+    int16_t *shorts = p->whole[p->base_level];
+    for (size_t i = 0; i < (size_t)layer->frame.width * layer->frame.height; i++) {
+        if (h->floats && !isfinite(floats[i])) {
+            floats[i] = h->floats[i];
+        } else if (h->shorts && p->raster.has_nodata && (double)shorts[i] == p->raster.nodata) {
+            shorts[i] = h->shorts[i];
+        }
+    }
+}
+
 static trl_result take_elevation(struct loader *loader, const struct surface_layer_desc *desc,
-                                 const struct stream_layer *tiles, struct terrain_layer *layer)
+                                 struct stream_layer *tiles, struct terrain_layer *layer)
 {
     const struct load_below under = {loader->surface, layer->mode};
     const struct layer_fill below = {load_fill_height, &under};
-    const struct pyramid *p = &tiles->pyramid;
+    struct pyramid *p = &tiles->pyramid;
     trl_result result = load_set_scale(loader, desc, &p->raster, layer);
     if (result == TRL_OK) {
         result = layer_take_heights(&p->raster, p->whole[p->base_level], &below, layer);
         // Tiles hold nothing but heights.
         mem_free(layer->ctx, layer->heights.coarser);
         layer->heights.coarser = NULL;
+    }
+    if (result == TRL_OK) {
+        give_filled(p, layer);
     }
     if (result == TRL_OK) {
         result = load_raise_sea(loader, layer);
@@ -116,7 +134,7 @@ static trl_result take_picture(const struct loader *loader, const struct stream_
 }
 
 static trl_result take_coarse(struct loader *loader, const struct surface_layer_desc *desc,
-                              const struct stream_layer *tiles, struct terrain_layer *layer)
+                              struct stream_layer *tiles, struct terrain_layer *layer)
 {
     struct surface *s = loader->surface;
     switch (desc->kind) {

@@ -82,9 +82,10 @@ double roughness_of_tiles(const trl_context *ctx, const struct terrain_layer *la
         const struct pyramid_tile tile = {0, (uint32_t)(fmod(i * 0.75487766624669, 1) * columns),
                                           (uint32_t)(fmod(i * 0.56984029099805, 1) * rows)};
         const double beside = is_square_there(l, &tile) ? mean_of_coarse(l, &tile) : 0;
-        if (beside > 0 && pyramid_read(&reader, &tile, texels) == TRL_OK) {
-            struct tile_range range;
-            stream_prepare(l, &tile, texels, &range);
+        struct tile_range range;
+        const struct tile_load load = {tile, texels, &range};
+        if (beside > 0 && pyramid_read(&reader, &tile, texels) == TRL_OK &&
+            stream_prepare(l, &reader, &load) == TRL_OK) {
             fine += mean_of_tile(l, texels);
             coarse += beside;
             tiles++;

@@ -97,8 +97,13 @@ TRL_MUST_USE trl_result stream_walk(struct stream *stream, const struct surface 
                                     const struct stream_view *view);
 
 // What a tile holds is changed to what the surface shows (stream_prepare.c); for the cache.
-void stream_prepare(const void *stream_layer, const struct pyramid_tile *tile, void *texels,
-                    struct tile_range *range);
+trl_result stream_prepare(const void *stream_layer, struct pyramid_reader *reader,
+                          const struct tile_load *load);
+
+// Lets alpha of a picture's tile fall toward gaps over the layer's feather (stream_feather.c). As
+// pyramid_read.
+trl_result stream_feather(const struct stream_layer *layer, struct pyramid_reader *reader,
+                          const struct pyramid_tile *tile, uint8_t *rgba);
 
 // See surface_has_changed.
 bool stream_has_changed(const struct stream *stream, uint64_t since, struct vec3 direction,

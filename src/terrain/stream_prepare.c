@@ -61,7 +61,8 @@ static struct layer_geo place_of(const struct tile_heights *t, size_t i)
                         map_texel(t->first_y, i / PYRAMID_SIDE, level->height, f->height));
 }
 
-// In gaps stands what the coarse level has there: its own were filled when it was read.
+// In what is left of gaps stands what the coarse level has there: its own were filled when it was
+// read.
 static void fill_voids(const struct tile_heights *t)
 {
     const struct raster *raster = &t->l->pyramid.raster;
@@ -138,41 +139,57 @@ static struct tile_range find_range(const struct tile_heights *t)
     return (struct tile_range){(float)low, (float)high};
 }
 
-// Colours spread into gaps, so that filters mix in no black; then roots.
-static void prepare_picture(const struct stream_layer *l, uint8_t *rgba)
+// Colours spread into gaps, so that filters mix in no black; alpha falls toward them, where the
+// file does not say by itself how; then roots.
+static trl_result prepare_picture(const struct stream_layer *l, struct pyramid_reader *reader,
+                                  const struct tile_load *load)
 {
+    uint8_t *rgba = load->texels;
+    const struct layer_frame frame = {.width = PYRAMID_SIDE, .height = PYRAMID_SIDE};
+    trl_result result = TRL_OK;
     size_t voids = 0;
     for (size_t i = 0; i < PYRAMID_TEXELS; i++) {
         voids += rgba[4 * i + 3] == 0;
     }
-    const struct layer_frame frame = {
-        .width = PYRAMID_SIDE, .height = PYRAMID_SIDE, .texel_height = 1, .feather = 1};
     if (voids > 0 && voids < PYRAMID_TEXELS) {
-        const trl_result result = voids_fill_picture(&l->pyramid.raster, &frame, rgba);
-        (void)result; // without memory for it, gaps stay black below their alpha
+        result = voids_spread_colours(reader->raster.ctx, &frame, rgba);
     }
-    if (l->is_root) {
+    if (result == TRL_OK && voids < PYRAMID_TEXELS && !l->pyramid.raster.has_alpha) {
+        result = stream_feather(l, reader, &load->tile, rgba);
+    }
+    if (result == TRL_OK && l->is_root) {
         layer_take_roots(&l->layer->cover, rgba, PYRAMID_TEXELS);
     }
+    return result;
 }
 
-void stream_prepare(const void *user, const struct pyramid_tile *tile, void *texels,
-                    struct tile_range *range)
+static trl_result prepare_heights(const struct stream_layer *l, struct pyramid_reader *reader,
+                                  const struct tile_load *load)
 {
-    const struct stream_layer *l = user;
-    if (l->is_elevation) {
-        const bool is_float = l->pyramid.format == PYRAMID_FLOAT;
-        const struct tile_heights t = {.l = l,
-                                       .level = tile->level,
-                                       .first_x = tile->x * (double)PYRAMID_TILE - PYRAMID_BORDER,
-                                       .first_y = tile->y * (double)PYRAMID_TILE - PYRAMID_BORDER,
-                                       .shorts = is_float ? NULL : texels,
-                                       .floats = is_float ? texels : NULL};
+    const struct pyramid_window window = pyramid_window_of(&load->tile);
+    const bool is_float = l->pyramid.format == PYRAMID_FLOAT;
+    const struct tile_heights t = {.l = l,
+                                   .level = window.level,
+                                   .first_x = (double)window.x,
+                                   .first_y = (double)window.y,
+                                   .shorts = is_float ? NULL : load->texels,
+                                   .floats = is_float ? load->texels : NULL};
+    const trl_result result = pyramid_fill_gaps(reader, &window, load->texels);
+    if (result == TRL_OK) {
         fill_voids(&t);
         level_pole(&t);
         raise_sea(&t);
-        *range = find_range(&t);
-    } else if (l->pyramid.format == PYRAMID_RGBA8) {
-        prepare_picture(l, texels);
+        *load->range = find_range(&t);
     }
+    return result;
+}
+
+trl_result stream_prepare(const void *user, struct pyramid_reader *reader,
+                          const struct tile_load *load)
+{
+    const struct stream_layer *l = user;
+    if (l->is_elevation) {
+        return prepare_heights(l, reader, load);
+    }
+    return l->pyramid.format == PYRAMID_RGBA8 ? prepare_picture(l, reader, load) : TRL_OK;
 }

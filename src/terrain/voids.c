@@ -6,7 +6,7 @@
 #include <string.h>
 
 enum { MAX_LEVELS = 24, SWEEPS = 12, COARSE_SWEEPS = 60 };
-static const float FAR_TEXELS = 1e12f; // squared; more than any raster's diagonal
+const float VOIDS_FAR = 1e12f; // squared; more than any raster's diagonal
 
 // A gap is known as coarsely as its rim is far: at 8 texels from it, to 4.
 static const double COARSER_TEXELS = 0.5;
@@ -136,7 +136,7 @@ static void transform_line(float *line, size_t count, size_t stride, float *scra
     }
     size_t last = 0;
     places[0] = 0;
-    starts[0] = -FAR_TEXELS;
+    starts[0] = -VOIDS_FAR;
     for (size_t q = 1; q < count; q++) {
         const float x = (float)q;
         float meet = 0;
@@ -150,7 +150,7 @@ static void transform_line(float *line, size_t count, size_t stride, float *scra
         }
         last += meet > starts[last];
         places[last] = x;
-        starts[last] = last == 0 ? -FAR_TEXELS : meet;
+        starts[last] = last == 0 ? -VOIDS_FAR : meet;
     }
     size_t k = 0;
     for (size_t q = 0; q < count; q++) {
@@ -162,9 +162,7 @@ static void transform_line(float *line, size_t count, size_t stride, float *scra
     }
 }
 
-// Distances in texels to the nearest texel that is 0; the others are FAR_TEXELS before.
-static trl_result measure_distances(const trl_context *ctx, const struct layer_frame *f,
-                                    float *distance)
+trl_result voids_measure(const trl_context *ctx, const struct layer_frame *f, float *distance)
 {
     const size_t longest = f->width > f->height ? f->width : f->height;
     float *scratch = mem_alloc(ctx, 3 * longest + 1, sizeof *scratch);
@@ -222,7 +220,7 @@ static void measure_rim(const struct layer_fill *below, const struct terrain_lay
     const int64_t count = (int64_t)f->width * f->height;
 #pragma omp parallel for schedule(dynamic, 4096)
     for (int64_t i = 0; i < count; i++) {
-        gaps->distance[i] = gaps->voids[i] ? FAR_TEXELS : 0;
+        gaps->distance[i] = gaps->voids[i] ? VOIDS_FAR : 0;
         if (!gaps->voids[i] && has_void_beside(gaps->voids, f, (size_t)i)) {
             const double height = layer_texel(layer, i % f->width, i / f->width);
             gaps->difference.values[0][i] = (float)(height - height_below(below, f, (size_t)i));
@@ -246,7 +244,7 @@ static trl_result fill_gaps(const struct layer_fill *below, struct gaps *gaps,
     }
     measure_rim(below, layer, gaps);
     spread(&gaps->difference);
-    result = measure_distances(layer->ctx, f, gaps->distance);
+    result = voids_measure(layer->ctx, f, gaps->distance);
     const double feather = fmax(f->feather / f->texel_height, 1);
 #pragma omp parallel for schedule(dynamic, 4096)
     for (int64_t i = 0; i < count; i++) {
@@ -320,6 +318,20 @@ static trl_result spread_channel(const trl_context *ctx, const struct layer_fram
     return TRL_OK;
 }
 
+trl_result voids_spread_colours(const trl_context *ctx, const struct layer_frame *f, uint8_t *rgba)
+{
+    trl_result result = TRL_OK;
+    for (int channel = 0; channel < 3 && result == TRL_OK; channel++) {
+        result = spread_channel(ctx, f, channel, rgba);
+    }
+    return result;
+}
+
+double voids_weight(double distance, double feather)
+{
+    return smooth_part((distance - 0.5) / feather);
+}
+
 static trl_result feather_alpha(const trl_context *ctx, const struct layer_frame *f, uint8_t *rgba)
 {
     const size_t count = (size_t)f->width * f->height;
@@ -328,12 +340,12 @@ static trl_result feather_alpha(const trl_context *ctx, const struct layer_frame
         return TRL_ERROR_MEMORY;
     }
     for (size_t i = 0; i < count; i++) {
-        distance[i] = rgba[4 * i + 3] > 0 ? FAR_TEXELS : 0;
+        distance[i] = rgba[4 * i + 3] > 0 ? VOIDS_FAR : 0;
     }
-    const trl_result result = measure_distances(ctx, f, distance);
+    const trl_result result = voids_measure(ctx, f, distance);
     const double feather = fmax(f->feather / f->texel_height, 1);
     for (size_t i = 0; i < count && result == TRL_OK; i++) {
-        const double weight = smooth_part(((double)distance[i] - 0.5) / feather);
+        const double weight = voids_weight((double)distance[i], feather);
         rgba[4 * i + 3] = (uint8_t)lrint(weight * rgba[4 * i + 3]);
     }
     mem_free(ctx, distance);
@@ -350,8 +362,8 @@ trl_result voids_fill_picture(const struct raster *raster, const struct layer_fr
         voids += rgba[4 * i + 3] == 0;
     }
     trl_result result = voids == count ? fail_all_void(raster) : TRL_OK;
-    for (int channel = 0; channel < 3 && voids > 0 && result == TRL_OK; channel++) {
-        result = spread_channel(raster->ctx, f, channel, rgba);
+    if (result == TRL_OK && voids > 0) {
+        result = voids_spread_colours(raster->ctx, f, rgba);
     }
     if (result == TRL_OK && voids > 0 && !raster->has_alpha) {
         result = feather_alpha(raster->ctx, f, rgba);

@@ -20,4 +20,15 @@ TRL_MUST_USE trl_result voids_fill_heights(const struct raster *raster,
 TRL_MUST_USE trl_result voids_fill_picture(const struct raster *raster,
                                            const struct layer_frame *frame, uint8_t *rgba);
 
+// The parts of that. Colours of pixels that have some, over those that have none.
+TRL_MUST_USE trl_result voids_spread_colours(const trl_context *ctx,
+                                             const struct layer_frame *frame, uint8_t *rgba);
+// Distances in texels to the nearest texel that is 0, from an array that holds VOIDS_FAR for the
+// others.
+extern const float VOIDS_FAR;
+TRL_MUST_USE trl_result voids_measure(const trl_context *ctx, const struct layer_frame *frame,
+                                      float *distance);
+// 0 at a gap to 1 at a distance of `feather` texels.
+double voids_weight(double distance, double feather);
+
 #endif // TERRAIN_VOIDS_H

@@ -324,18 +324,20 @@ struct gate {
     size_t count;
 };
 
-static void pass_gate(const void *user, const struct pyramid_tile *tile, void *texels,
-                      struct tile_range *range)
+static trl_result pass_gate(const void *user, struct pyramid_reader *reader,
+                            const struct tile_load *load)
 {
     struct gate *gate = *(struct gate *const *)user;
-    (void)texels;
-    *range = (struct tile_range){(float)tile->x, (float)tile->y};
+    const struct pyramid_tile *tile = &load->tile;
+    (void)reader;
+    *load->range = (struct tile_range){(float)tile->x, (float)tile->y};
     pthread_mutex_lock(&gate->lock);
     gate->order[gate->count++] = tile->x;
     while (!gate->is_open) {
         pthread_cond_wait(&gate->opened, &gate->lock);
     }
     pthread_mutex_unlock(&gate->lock);
+    return TRL_OK;
 }
 
 static void open_gate(struct gate *gate)
