@@ -18,25 +18,33 @@ uniform vec4 u_cloud_anchor[CLOUD_MAX_LAYERS];        // the eye in tiles, witho
 uniform vec4 u_cloud_detail_anchor[CLOUD_MAX_LAYERS]; // the same of the finer noise
 uniform vec4 u_cloud_field_anchor[CLOUD_MAX_LAYERS];  // and of the coarser
 uniform vec4 u_cloud_wide_anchor[CLOUD_MAX_LAYERS];   // and of the coarsest, axes y, z, x
+uniform vec4 u_cloud_bend[CLOUD_MAX_LAYERS];          // phase of what bends the noise, at the eye
+uniform vec4 u_cloud_field_bend[CLOUD_MAX_LAYERS];    // the same of the coarser
+uniform vec4 u_cloud_eye[CLOUD_MAX_LAYERS];           // the eye as the layer had it, m
 uniform vec4 u_cloud_turn[CLOUD_MAX_LAYERS]; // cosine and sine of how far the wind has turned it
-uniform vec4 u_cloud_volume;     // texels a side, its last level, border in texels, whether
-                                 // there is a map
+uniform vec4
+    u_cloud_form[CLOUD_MAX_LAYERS]; // tiles of fibres per rad about the axis, 0: none; shear, m;
+                                    // width of the edge in noise; border, m
+uniform vec4 u_cloud_belt[CLOUD_MAX_LAYERS]; // south, north, feather, rad; cover in cyclones
+uniform vec4 u_cloud_volume;     // texels a side, its last level, -, whether there is a map
 uniform float u_cloud_spread[8]; // by level
 uniform sampler3D u_cloud_noise;
-uniform sampler2D u_cloud_map; // cover, equirectangular, row 0 north, left edge 180 W
 
 // What is looked at often of a layer, since drivers look up arrays by an index slowly.
 struct CloudLayer {
-    vec4 shell, grain; // as the arrays
+    vec4 shell, grain, form, belt; // as the arrays
     vec3 anchor, detail_anchor, field_anchor, wide_anchor;
+    vec3 bend, field_bend, eye;
     vec2 turn;
 };
 
 CloudLayer cloud_layer(int index)
 {
-    return CloudLayer(u_cloud_shell[index], u_cloud_grain[index], u_cloud_anchor[index].xyz,
-                      u_cloud_detail_anchor[index].xyz, u_cloud_field_anchor[index].xyz,
-                      u_cloud_wide_anchor[index].xyz, u_cloud_turn[index].xy);
+    return CloudLayer(
+        u_cloud_shell[index], u_cloud_grain[index], u_cloud_form[index], u_cloud_belt[index],
+        u_cloud_anchor[index].xyz, u_cloud_detail_anchor[index].xyz,
+        u_cloud_field_anchor[index].xyz, u_cloud_wide_anchor[index].xyz, u_cloud_bend[index].xyz,
+        u_cloud_field_bend[index].xyz, u_cloud_eye[index].xyz, u_cloud_turn[index].xy);
 }
 
 // A place, or a direction, as the layer had it before the wind turned it.
@@ -61,16 +69,43 @@ float cloud_height(CloudLayer layer, vec3 place)
     return (cloud_altitude(place) - layer.shell.x) / (layer.shell.y - layer.shell.x);
 }
 
-// The part of the sky that a layer may cover at a place. `width` is that of a pixel there, m.
-float cloud_cover(CloudLayer layer, vec3 place, float width)
+// `place` is unturned, relative to the eye; `scale` in tiles per m. As cloud_field_bent.
+vec3 cloud_bent(vec3 place, vec3 phase, float scale)
 {
-    vec3 up = cloud_unturned(layer, normalize(u_eye_up * u_eye.x + place));
-    vec2 at = vec2(atan(up.y, up.x) * (0.5 / SHARED_PI) + 0.5,
-                   0.5 - asin(clamp(up.z, -1.0, 1.0)) * (1.0 / SHARED_PI));
-    float texel = 2.0 * SHARED_PI * u_planet.x / float(textureSize(u_cloud_map, 0).x);
-    float map = textureLod(u_cloud_map, at, log2(max(width / texel, 1.0))).x;
-    float cover = layer.shell.w * (u_cloud_volume.w > 0.5 ? map : 1.0);
-    return cloud_level_cover(cover, layer.grain.w);
+    float wave = scale * (2.0 * SHARED_PI / CLOUD_BEND_WAVE);
+    vec3 turned =
+        vec3(0.8 * place.y + 0.6 * place.z, 0.6 * place.x - 0.48 * place.y + 0.64 * place.z,
+             0.8 * place.x + 0.36 * place.y - 0.48 * place.z);
+    return place + sin(phase + turned * wave) * (CLOUD_BEND / scale);
+}
+
+// Where the noise and the finer one are looked at for a place, in tiles. As cloud_field_place.
+struct CloudPlaces {
+    vec3 noise, finer;
+};
+
+CloudPlaces cloud_places(CloudLayer layer, vec3 place, float height)
+{
+    vec3 unturned = cloud_unturned(layer, place);
+    // Loops, since branches save nothing.
+    for (int once = 0; once < (layer.form.y != 0.0 ? 1 : 0); once++) {
+        vec2 flat_place = layer.eye.xy + unturned.xy;
+        vec2 east = vec2(-flat_place.y, flat_place.x) / max(length(flat_place), 1.0e-3);
+        unturned.xy += east * cloud_lag(height, layer.form.y);
+    }
+    vec3 bent = cloud_bent(unturned, layer.bend, layer.grain.x);
+    float finer = layer.grain.x * CLOUD_DETAIL_TILES;
+    CloudPlaces places;
+    places.noise = layer.anchor + bent * layer.grain.x;
+    places.finer = layer.detail_anchor + bent * finer;
+    for (int once = 0; once < (layer.form.x > 0.0 ? 1 : 0); once++) {
+        vec3 there = layer.eye + bent;
+        float across = length(there.xy);
+        float along = cloud_longitude(there.y, there.x) * layer.form.x;
+        places.noise = vec3(across * layer.grain.x, there.z * layer.grain.x, along);
+        places.finer = vec3(across * finer, there.z * finer, along * CLOUD_FIBRE_DETAIL_TURNS);
+    }
+    return places;
 }
 
 float cloud_spread(float level)
@@ -130,11 +165,17 @@ CloudBox cloud_whole_box(CloudLayer layer, float level, float rest)
 float cloud_gathered(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
     vec3 unturned = cloud_unturned(layer, place);
-    vec3 at = layer.field_anchor + unturned * (layer.grain.x / CLOUD_FIELD_TILES);
+    float scale = layer.grain.x / CLOUD_FIELD_TILES;
+    vec3 at = layer.field_anchor + cloud_bent(unturned, layer.field_bend, scale) * scale;
     float noise = textureLod(u_cloud_noise, at, box.field_level).x;
-    vec3 wide_at = layer.wide_anchor + unturned.yzx * (layer.grain.x / CLOUD_WIDE_TILES);
-    float wide_level = max(box.level - floor(log2(CLOUD_WIDE_TILES)), 0.0);
-    return cloud_gathered_cover(cover, noise, textureLod(u_cloud_noise, wide_at, wide_level).x);
+    // A map knows the regions. A loop, since branches save nothing.
+    float wide = 0.5;
+    for (int once = 0; once < (u_cloud_volume.w > 0.5 ? 0 : 1); once++) {
+        vec3 wide_at = layer.wide_anchor + unturned.yzx * (layer.grain.x / CLOUD_WIDE_TILES);
+        float wide_level = max(box.level - floor(log2(CLOUD_WIDE_TILES)), 0.0);
+        wide = textureLod(u_cloud_noise, wide_at, wide_level).x;
+    }
+    return cloud_gathered_cover(cover, noise, wide);
 }
 
 // Whether there may be cloud in the border around a place, or along a ray from it that is as long
@@ -144,10 +185,7 @@ bool cloud_may_be_near(CloudLayer layer, vec3 place, float cover, CloudBox box, 
     // The height that has most of the cover.
     float height = cloud_height(layer, place);
     float best = clamp(layer.shell.z, min(height, height + rise), max(height, height + rise));
-    float around =
-        textureLod(u_cloud_noise, layer.anchor + cloud_unturned(layer, place) * layer.grain.x,
-                   box.level)
-            .y;
+    float around = textureLod(u_cloud_noise, cloud_places(layer, place, height).noise, box.level).y;
     float most = cloud_joint_noise(around, 1.0, layer.grain.z) + box.spread;
     return most > cloud_threshold(cover, cloud_height_signal(best, layer.shell.z));
 }
@@ -155,19 +193,15 @@ bool cloud_may_be_near(CloudLayer layer, vec3 place, float cover, CloudBox box, 
 // Extinction, per m.
 float cloud_point(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
-    float signal = cloud_height_signal(cloud_height(layer, place), layer.shell.z);
-    float noise = textureLod(u_cloud_noise,
-                             layer.anchor + cloud_unturned(layer, place) * layer.grain.x, box.level)
-                      .x;
-    float finer = textureLod(u_cloud_noise,
-                             layer.detail_anchor + cloud_unturned(layer, place) *
-                                                       (layer.grain.x * CLOUD_DETAIL_TILES),
-                             box.detail_level)
-                      .x;
+    float height = cloud_height(layer, place);
+    float signal = cloud_height_signal(height, layer.shell.z);
+    CloudPlaces at = cloud_places(layer, place, height);
+    float noise = textureLod(u_cloud_noise, at.noise, box.level).x;
+    float finer = textureLod(u_cloud_noise, at.finer, box.detail_level).x;
     float joint = cloud_joint_noise(noise, finer, layer.grain.z);
     float spread = cloud_joint_spread(box.spread, box.detail_spread, joint);
     float x = joint - cloud_threshold(cover, signal);
-    float density = cloud_density(x, spread);
+    float density = cloud_density(x, spread, layer.form.z);
     return cloud_extinction(density, cloud_part(x, spread), layer.grain.y, box.way);
 }
 
@@ -175,13 +209,11 @@ float cloud_point(CloudLayer layer, vec3 place, float cover, CloudBox box)
 // extinction; y: where there is cloud in the box.
 vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
-    float noise = textureLod(u_cloud_noise,
-                             layer.anchor + cloud_unturned(layer, place) * layer.grain.x, box.level)
-                      .x;
+    float height = cloud_height(layer, place);
+    float noise = textureLod(u_cloud_noise, cloud_places(layer, place, height).noise, box.level).x;
     float spread = cloud_joint_spread(box.spread, layer.grain.z * u_cloud_spread[7], noise);
-    float x = noise - cloud_threshold(
-                          cover, cloud_height_signal(cloud_height(layer, place), layer.shell.z));
-    float density = cloud_density(x, spread);
+    float x = noise - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    float density = cloud_density(x, spread, layer.form.z);
     float part = cloud_part(x, spread);
     return vec2(cloud_extinction(density, part, layer.grain.y, box.way),
                 layer.grain.y * density / max(part, 1.0e-4));

@@ -18,6 +18,7 @@
 // validate: PEAKED_COUNT 1; SURFACE; MARCH
 
 #include "cloud/light.glsl"
+#include "cloud/weather.glsl"
 #include "sky/spectral/air.glsl"
 #include "sky/spectral/colour.glsl"
 
@@ -158,7 +159,7 @@ void main()
             CloudBox box =
                 cloud_whole_box(layer, cloud_level(layer, max(width, 0.25 * usual)), four.y);
             // At least a step, so that where nothing can be skipped no more is looked at.
-            float border = max(u_cloud_volume.z * texel, usual);
+            float border = max(layer.form.w, usual);
             float rise = border * dot(up, ray.direction) / (layer.shell.y - layer.shell.x);
             // Where steps are longer than what is in them varies, they would only make noise.
             float offset = 0.5 + (four.x - 0.5) * min(4.0 * texel / usual, 1.0);

@@ -5,7 +5,7 @@
 // they take, droplets send most on downward; it counts here too, as if it still came from the star.
 // validate: SURFACE
 
-#include "cloud/field.glsl"
+#include "cloud/weather.glsl"
 
 uniform vec2 u_picture; // pixels
 

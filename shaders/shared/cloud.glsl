@@ -14,16 +14,14 @@
 // The finer noise of the edges is the same volume in tiles that are smaller by this, which no small
 // number of tiles makes whole.
 #define CLOUD_DETAIL_TILES 6.137
-// Noise beyond the edge at which a cloud is as dense as it gets.
-#define CLOUD_EDGE 0.12
 
 // Michelic 2019, Eq. 13: 0 at the base and the top, 1 at `peak`; the parabola is his where that is
-// in the middle, else each side is stretched.
+// in the middle, else each side is stretched. With a peak at 0 a layer lies on what is below it.
 SHARED_FN Number cloud_height_signal(Number height, Number peak)
 {
     Number x = shared_clamp(height, 0.0, 1.0);
     Number side = x < peak ? 1.0 - x / peak : (x - peak) / (1.0 - peak);
-    return 1.0 - side * side;
+    return height < 0.0 ? 0.0 : 1.0 - side * side;
 }
 
 // Clouds of many heights hide more of the sky than of any level: what of one makes a cover of the
@@ -42,6 +40,39 @@ SHARED_FN Number cloud_gathered_cover(Number cover, Number noise, Number wide)
 {
     Number odds = exp(2.2 * (noise + wide - 1.0));
     return cover * odds / (1.0 - cover + cover * odds);
+}
+
+// Tiles are bent by a field of sines, each along an axis of its own, that no two look alike. Their
+// wavelength and amplitude are these numbers of tiles; a metre becomes at most
+// 1 + 2 pi amplitude / wavelength, 1.31, of noise.
+#define CLOUD_BEND_WAVE 8.15
+#define CLOUD_BEND 0.4
+#define CLOUD_BEND_STRAIN 1.31
+
+// The noise of fibres has circles about the planet's axis as its third axis, along which its tiles
+// are longer by this; the finer noise has them longer by still more.
+#define CLOUD_FIBRE_STRETCH 7.0
+#define CLOUD_FIBRE_DETAIL_TURNS 2.0
+
+// atan2 within 2e-4, with the same steps on CPU and GPU and without its cost.
+SHARED_FN Angle cloud_longitude(Length y, Length x)
+{
+    Length most = shared_max(shared_max(shared_abs(x), shared_abs(y)), 1.0e-9);
+    Number t = shared_min(shared_abs(x), shared_abs(y)) / most;
+    Number t2 = t * t;
+    Number a =
+        ((((0.0208351 * t2 - 0.085133) * t2 + 0.180141) * t2 - 0.3302995) * t2 + 0.999866) * t;
+    Number b = shared_abs(y) > shared_abs(x) ? 0.5 * SHARED_PI - a : a;
+    Number c = x < 0.0 ? SHARED_PI - b : b;
+    return y < 0.0 ? -c : c;
+}
+
+// How far the foot of a streak is behind its head, which the wind above drags along: m for a
+// `shear` in m at the base.
+SHARED_FN Length cloud_lag(Number height, Length shear)
+{
+    Number below = 1.0 - shared_clamp(height, 0.0, 1.0);
+    return shear * below * below;
 }
 
 // The noise with a share `weight` of the finer one, which moves no value out of [0, 1].
@@ -77,10 +108,11 @@ SHARED_FN Number cloud_ramp(Number x, Number spread)
     return y * y / (4.0 * s) + shared_max(x - s, 0.0);
 }
 
-// Mean density in [0, 1] of a box whose noise is `x` above the threshold in the mean.
-SHARED_FN Number cloud_density(Number x, Number spread)
+// Mean density in [0, 1] of a box whose noise is `x` above the threshold in the mean. A cloud is as
+// dense as it gets where noise is beyond the threshold by `edge`.
+SHARED_FN Number cloud_density(Number x, Number spread, Number edge)
 {
-    return (cloud_ramp(x, spread) - cloud_ramp(x - CLOUD_EDGE, spread)) * (1.0 / CLOUD_EDGE);
+    return (cloud_ramp(x, spread) - cloud_ramp(x - edge, spread)) / edge;
 }
 
 // The part of the box that is cloud.

@@ -6,13 +6,23 @@
 
 #include <stddef.h>
 
-enum { CLOUD_MAX_LAYERS = 4 };
+enum { CLOUD_MAX_LAYERS = 4, CLOUD_MAX_CYCLONES = 4 };
 
 // Where between base and top a layer is widest.
 #define CLOUD_CUMULUS_PEAK 0.2
 #define CLOUD_STRATUS_PEAK 0.5
+#define CLOUD_FOG_PEAK 0.0
 
-enum cloud_type { CLOUD_CUMULUS, CLOUD_STRATUS, CLOUD_CIRRUS };
+enum cloud_type { CLOUD_CUMULUS, CLOUD_STRATUS, CLOUD_CIRRUS, CLOUD_FOG };
+
+// Between which latitudes a layer is; it ends within `feather_rad` outside of them.
+struct cloud_belt {
+    double south_rad, north_rad, feather_rad;
+};
+#define CLOUD_EVERYWHERE                                                                           \
+    {                                                                                              \
+        -2, 2, 0.1                                                                                 \
+    }
 
 struct cloud_layer {
     enum cloud_type type;
@@ -21,11 +31,22 @@ struct cloud_layer {
     double extinction_per_m; // where the cloud is densest
     double scale_m;          // tile of the noise
     double wind_m_s;         // to the east at the equator; the layer turns as a whole
+    double shear_m;          // how far its base is behind its top, to the west
+    double cyclone_cover;    // of the sky in the bands of cyclones
+    struct cloud_belt belt;
+};
+
+struct cloud_cyclone {
+    double latitude_rad, longitude_rad; // of its eye
+    double radius_m;                    // where its bands end
+    double eye_radius_m;
 };
 
 struct cloud_desc {
     size_t layer_count; // 0: no clouds
     struct cloud_layer layers[CLOUD_MAX_LAYERS];
+    size_t cyclone_count;
+    struct cloud_cyclone cyclones[CLOUD_MAX_CYCLONES];
     double seed;
     char *map_path; // owned; raster of cover, NULL: none
 };

@@ -68,12 +68,25 @@ double cloud_field_highest_m(const struct cloud_field *field)
 
 double cloud_field_detail(enum cloud_type type)
 {
-    return type == CLOUD_CUMULUS ? 0.25 : 0.15;
+    static const double weights[] = {
+        [CLOUD_CUMULUS] = 0.25, [CLOUD_STRATUS] = 0.15, [CLOUD_CIRRUS] = 0.5, [CLOUD_FOG] = 0.15};
+    return weights[type];
+}
+
+double cloud_field_edge(enum cloud_type type)
+{
+    static const double edges[] = {
+        [CLOUD_CUMULUS] = 0.12, [CLOUD_STRATUS] = 0.12, [CLOUD_CIRRUS] = 0.5, [CLOUD_FOG] = 0.3};
+    return edges[type];
 }
 
 double cloud_field_peak(enum cloud_type type)
 {
-    return type == CLOUD_CUMULUS ? CLOUD_CUMULUS_PEAK : CLOUD_STRATUS_PEAK;
+    static const double peaks[] = {[CLOUD_CUMULUS] = CLOUD_CUMULUS_PEAK,
+                                   [CLOUD_STRATUS] = CLOUD_STRATUS_PEAK,
+                                   [CLOUD_CIRRUS] = CLOUD_STRATUS_PEAK,
+                                   [CLOUD_FOG] = CLOUD_FOG_PEAK};
+    return peaks[type];
 }
 
 double cloud_field_overlap(enum cloud_type type)
@@ -99,41 +112,6 @@ struct vec3 cloud_field_unturned(const struct cloud_field *field, size_t layer,
                          position_m.z};
 }
 
-double cloud_field_cover(const struct cloud_field *field, size_t layer, struct vec3 position_m)
-{
-    double map = 1;
-    if (field->has_map) {
-        const struct vec3 up = vec3_normalize(cloud_field_unturned(field, layer, position_m));
-        map =
-            raster_grid_sample(&field->map, asin(fmax(-1, fmin(1, up.z))), atan2(up.y, up.x)).value;
-    }
-    const struct cloud_layer *l = &field->desc.layers[layer];
-    return cloud_level_cover(l->cover * map, cloud_field_overlap(l->type));
-}
-
-struct vec3 cloud_field_wide_place(struct vec3 position_m)
-{
-    return (struct vec3){position_m.y, position_m.z, position_m.x};
-}
-
-// The cover of one height there, with clouds gathered.
-static double find_gathered(const struct cloud_field *field, size_t layer, struct vec3 position_m,
-                            double level)
-{
-    const double scale_m = field->desc.layers[layer].scale_m;
-    const struct vec3 unturned_m = cloud_field_unturned(field, layer, position_m);
-    const struct vec3 field_place = vec3_scale(unturned_m, 1 / (scale_m * CLOUD_FIELD_TILES));
-    const struct vec3 wide_place =
-        vec3_scale(cloud_field_wide_place(unturned_m), 1 / (scale_m * CLOUD_WIDE_TILES));
-    const double narrow[3] = {field_place.x, field_place.y, field_place.z};
-    const double wide[3] = {wide_place.x, wide_place.y, wide_place.z};
-    const double narrow_level = fmax(0, level - log(CLOUD_FIELD_TILES) / log(2));
-    const double wide_level = fmax(0, level - floor(log(CLOUD_WIDE_TILES) / log(2)));
-    return cloud_gathered_cover(cloud_field_cover(field, layer, position_m),
-                                cloud_volume_sample(&field->volume, narrow, narrow_level).value,
-                                cloud_volume_sample(&field->volume, wide, wide_level).value);
-}
-
 double cloud_field_extinction(const struct cloud_field *field, size_t layer, struct vec3 position_m,
                               double level)
 {
@@ -146,24 +124,17 @@ double cloud_field_extinction(const struct cloud_field *field, size_t layer, str
     }
     const double weight = cloud_field_detail(l->type);
     const double finer_level = level + log(CLOUD_DETAIL_TILES) / log(2);
-    const struct vec3 unturned = cloud_field_unturned(field, layer, position_m);
-    const double at[3] = {unturned.x, unturned.y, unturned.z};
-    double place[3];
-    double finer_place[3];
-    for (int k = 0; k < 3; k++) {
-        place[k] = at[k] / l->scale_m;
-        finer_place[k] = place[k] * CLOUD_DETAIL_TILES;
-    }
-    const double noise = cloud_volume_sample(&field->volume, place, level).value;
-    const double finer = cloud_volume_sample(&field->volume, finer_place, finer_level).value;
+    const struct cloud_place place = cloud_field_place(field, layer, position_m);
+    const double noise = cloud_volume_sample(&field->volume, place.noise, level).value;
+    const double finer = cloud_volume_sample(&field->volume, place.finer, finer_level).value;
     const double joint = cloud_joint_noise(noise, finer, weight);
     const double spread =
         cloud_joint_spread(cloud_volume_spread(&field->volume, level),
                            weight * cloud_volume_spread(&field->volume, finer_level), joint);
-    const double cover = find_gathered(field, layer, position_m, level);
+    const double cover = cloud_field_gathered(field, layer, position_m, level);
     const double x = joint - cloud_threshold(cover, signal);
     const double way_m =
         cloud_clump(l->top_m - l->base_m, l->scale_m, l->scale_m / CLOUD_SIDE * exp2(level));
-    return cloud_extinction(cloud_density(x, spread), cloud_part(x, spread), l->extinction_per_m,
-                            way_m);
+    return cloud_extinction(cloud_density(x, spread, cloud_field_edge(l->type)),
+                            cloud_part(x, spread), l->extinction_per_m, way_m);
 }

@@ -42,13 +42,38 @@ double cloud_field_cover(const struct cloud_field *field, size_t layer, struct v
 double cloud_field_extinction(const struct cloud_field *field, size_t layer, struct vec3 position_m,
                               double level);
 
+// The cover of one height there, with clouds gathered into fields as a box of that level sees them.
+double cloud_field_gathered(const struct cloud_field *field, size_t layer, struct vec3 position_m,
+                            double level);
+
+// Where the noise and the finer one are looked at for a place, in tiles (place.c).
+struct cloud_place {
+    double noise[3], finer[3];
+};
+struct cloud_place cloud_field_place(const struct cloud_field *field, size_t layer,
+                                     struct vec3 position_m);
+// By at most how much noise moves faster than places do, away from the axis of fibres.
+double cloud_field_strain(const struct cloud_layer *layer);
+bool cloud_field_has_fibres(enum cloud_type type);
+// Tiles of fibres for each radian about the planet's axis; whole ones fit around.
+double cloud_field_fibre_turns(const struct cloud_layer *layer, double ground_radius_m);
+// A place as the layer had it at the beginning, bent, for noise of such tiles; and the phase of
+// what bends it.
+struct vec3 cloud_field_bent(struct vec3 unturned_m, double tile_m);
+void cloud_field_bend_phase(struct vec3 unturned_m, double tile_m, double out[3]);
+
 // Where the widest noise is looked at for a place: along other axes, so that its tiles do not line
 // up with the others.
 struct vec3 cloud_field_wide_place(struct vec3 position_m);
 
+// Unit vectors to its eye, to the east there, and to where it turns from that.
+void cloud_cyclone_axes(const struct cloud_cyclone *cyclone, struct vec3 *at, struct vec3 *east,
+                        struct vec3 *turn);
+
 // Weight of the finer noise and the place of the greatest width, by type.
 double cloud_field_detail(enum cloud_type type);
 double cloud_field_peak(enum cloud_type type);
+double cloud_field_edge(enum cloud_type type); // for cloud_density
 // For cloud_level_cover.
 double cloud_field_overlap(enum cloud_type type);
 

@@ -183,64 +183,6 @@ static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *pi
     return TRL_OK;
 }
 
-// A place in tiles of a size, without the whole ones, so that floats are enough.
-static void set_anchor(float out[4], struct vec3 position_m, double tile_m)
-{
-    const double at[3] = {position_m.x / tile_m, position_m.y / tile_m, position_m.z / tile_m};
-    for (int k = 0; k < 3; k++) {
-        out[k] = (float)(at[k] - floor(at[k]));
-    }
-}
-
-void cloud_march_set_field(const struct cloud_march *m, const struct camera *camera,
-                           struct gpu_program *program)
-{
-    const struct cloud_field *field = m->field;
-    float shell[CLOUD_MAX_LAYERS][4] = {{0}};
-    float grain[CLOUD_MAX_LAYERS][4] = {{0}};
-    float anchor[CLOUD_MAX_LAYERS][4] = {{0}};
-    float finer[CLOUD_MAX_LAYERS][4] = {{0}};
-    float gathered[CLOUD_MAX_LAYERS][4] = {{0}};
-    float wide[CLOUD_MAX_LAYERS][4] = {{0}};
-    float turn[CLOUD_MAX_LAYERS][4] = {{0}};
-    float spread[CLOUD_LEVELS];
-    for (size_t i = 0; i < field->desc.layer_count; i++) {
-        const struct cloud_layer *l = &field->desc.layers[i];
-        shell[i][0] = (float)l->base_m;
-        shell[i][1] = (float)l->top_m;
-        shell[i][2] = (float)cloud_field_peak(l->type);
-        shell[i][3] = (float)l->cover;
-        grain[i][0] = (float)(1 / l->scale_m);
-        grain[i][1] = (float)l->extinction_per_m;
-        grain[i][2] = (float)cloud_field_detail(l->type);
-        grain[i][3] = (float)cloud_field_overlap(l->type);
-        turn[i][0] = (float)field->turn[i][0];
-        turn[i][1] = (float)field->turn[i][1];
-        const struct vec3 eye_m = cloud_field_unturned(field, i, camera->position_m);
-        set_anchor(anchor[i], eye_m, l->scale_m);
-        set_anchor(finer[i], eye_m, l->scale_m / CLOUD_DETAIL_TILES);
-        set_anchor(gathered[i], eye_m, l->scale_m * CLOUD_FIELD_TILES);
-        set_anchor(wide[i], cloud_field_wide_place(eye_m), l->scale_m * CLOUD_WIDE_TILES);
-    }
-    for (int level = 0; level < CLOUD_LEVELS; level++) {
-        spread[level] = (float)field->volume.spread[level];
-    }
-    const float volume[4] = {CLOUD_SIDE, CLOUD_LEVELS - 1, CLOUD_BORDER,
-                             field->has_map ? 1.0f : 0.0f};
-    gpu_program_set_int(program, "u_cloud_layers", (int32_t)field->desc.layer_count);
-    gpu_program_set_vec4s(program, "u_cloud_shell", shell[0], CLOUD_MAX_LAYERS);
-    gpu_program_set_vec4s(program, "u_cloud_grain", grain[0], CLOUD_MAX_LAYERS);
-    gpu_program_set_vec4s(program, "u_cloud_anchor", anchor[0], CLOUD_MAX_LAYERS);
-    gpu_program_set_vec4s(program, "u_cloud_detail_anchor", finer[0], CLOUD_MAX_LAYERS);
-    gpu_program_set_vec4s(program, "u_cloud_field_anchor", gathered[0], CLOUD_MAX_LAYERS);
-    gpu_program_set_vec4s(program, "u_cloud_wide_anchor", wide[0], CLOUD_MAX_LAYERS);
-    gpu_program_set_vec4s(program, "u_cloud_turn", turn[0], CLOUD_MAX_LAYERS);
-    gpu_program_set_floats(program, "u_cloud_spread", spread, CLOUD_LEVELS);
-    gpu_program_set_vec4(program, "u_cloud_volume", volume);
-    gpu_program_set_texture(program, "u_cloud_noise", &m->noise);
-    gpu_program_set_texture(program, "u_cloud_map", &m->map);
-}
-
 static void set_view(const struct cloud_view *view, struct gpu_program *program)
 {
     const float picture[2] = {(float)view->target->width, (float)view->target->height};

@@ -12,15 +12,35 @@
 // For what values between texels are rounded and the edge is smoothed.
 static const double slack = 1e-3;
 
-// The largest noise within the border of a place, in m of a tile.
-static double most_noise(const struct cloud_field *field, struct vec3 place_m, double tile_m)
+// The largest noise within the border of a place, in tiles.
+static double most_noise(const struct cloud_field *field, const double place[3])
 {
-    const double place[3] = {place_m.x / tile_m, place_m.y / tile_m, place_m.z / tile_m};
     return cloud_volume_sample(&field->volume, place, 0).around;
 }
 
+static double most_wide_noise(const struct cloud_field *field, struct vec3 place_m, double tile_m)
+{
+    return most_noise(field,
+                      (const double[]){place_m.x / tile_m, place_m.y / tile_m, place_m.z / tile_m});
+}
+
+static bool is_in_reach(const struct cloud_field *field, struct vec3 position_m, double reach_m)
+{
+    for (size_t i = 0; i < field->desc.cyclone_count; i++) {
+        const struct cloud_cyclone *c = &field->desc.cyclones[i];
+        const struct vec3 at = vec3_from_lat_lon(c->latitude_rad, c->longitude_rad);
+        const double apart = vec3_length(vec3_sub(vec3_normalize(position_m), at));
+        // Lumps in the outer bands reach a little farther than the radius.
+        if (apart * field->ground_radius_m < 1.2 * c->radius_m + reach_m) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // The largest cover of one height within reach. Between texels of the map it is bilinear, so that
-// it rises by no more than 1 along each side of a texel; these are narrow near the poles.
+// it rises by no more than 1 along each side of a texel; these are narrow near the poles. Belts
+// only take from it.
 static double most_cover(const struct cloud_field *field, size_t layer, struct vec3 position_m,
                          double reach_m)
 {
@@ -35,7 +55,26 @@ static double most_cover(const struct cloud_field *field, size_t layer, struct v
         const double lower = SHARED_PI / field->map.height;
         map = side > 0 ? fmin(1, here + reach / side + reach / lower) : 1;
     }
-    return cloud_level_cover(l->cover * map, cloud_field_overlap(l->type));
+    double cover = l->cover * map;
+    if (is_in_reach(field, position_m, reach_m)) {
+        cover = fmax(cover, l->cyclone_cover);
+    }
+    return cloud_level_cover(cover, cloud_field_overlap(l->type));
+}
+
+// How far the border reaches around a place in the noise of a layer, m.
+static double find_border_m(const struct cloud_field *field, const struct cloud_layer *l,
+                            struct vec3 position_m)
+{
+    const double border_m = (CLOUD_BORDER - 1) * l->scale_m / CLOUD_SIDE / cloud_field_strain(l);
+    if (!cloud_field_has_fibres(l->type)) {
+        return border_m;
+    }
+    // Circles about the axis get narrow. What bends a place may have brought it nearer.
+    const double across_m = sqrt(position_m.x * position_m.x + position_m.y * position_m.y) -
+                            2 * CLOUD_BEND * l->scale_m;
+    const double wide_m = field->ground_radius_m / CLOUD_FIBRE_STRETCH;
+    return border_m * fmin(1, fmax(across_m / wide_m, 1e-3));
 }
 
 static double layer_most(const struct cloud_field *field, size_t layer, struct vec3 position_m,
@@ -44,7 +83,7 @@ static double layer_most(const struct cloud_field *field, size_t layer, struct v
     const struct cloud_layer *l = &field->desc.layers[layer];
     const double altitude_m = vec3_length(position_m) - field->ground_radius_m;
     const double outside_m = fmax(l->base_m - altitude_m, altitude_m - l->top_m);
-    *reach_m = (CLOUD_BORDER - 1) * l->scale_m / CLOUD_SIDE;
+    *reach_m = find_border_m(field, l, position_m);
     if (outside_m > *reach_m) {
         *reach_m = outside_m;
         return 0;
@@ -54,14 +93,16 @@ static double layer_most(const struct cloud_field *field, size_t layer, struct v
     const double peak = cloud_field_peak(l->type);
     const double signal = cloud_height_signal(fmin(fmax(peak, height - rise), height + rise), peak);
     const struct vec3 unturned_m = cloud_field_unturned(field, layer, position_m);
-    const double noise = most_noise(field, unturned_m, l->scale_m);
+    const double field_m = l->scale_m * CLOUD_FIELD_TILES;
+    const double wide_m = l->scale_m * CLOUD_WIDE_TILES;
+    const double noise = most_noise(field, cloud_field_place(field, layer, position_m).noise);
     const double joint = cloud_joint_noise(noise, 1, cloud_field_detail(l->type));
     const double cover = cloud_gathered_cover(
         most_cover(field, layer, position_m, *reach_m),
-        most_noise(field, unturned_m, l->scale_m * CLOUD_FIELD_TILES),
-        most_noise(field, cloud_field_wide_place(unturned_m), l->scale_m * CLOUD_WIDE_TILES));
+        most_wide_noise(field, cloud_field_bent(unturned_m, field_m), field_m),
+        field->has_map ? 0.5 : most_wide_noise(field, cloud_field_wide_place(unturned_m), wide_m));
     const double x = joint - cloud_threshold(cover, signal) + slack;
-    return l->extinction_per_m * fmin(fmax(x / CLOUD_EDGE, 0), 1) * (1 + slack);
+    return l->extinction_per_m * fmin(fmax(x / cloud_field_edge(l->type), 0), 1) * (1 + slack);
 }
 
 static double most_per_m(const void *user, struct vec3 position_m, double *reach_m)

@@ -181,18 +181,18 @@ static void a_box_is_as_dense_as_its_values_in_the_mean(void **state)
         double sum = 0;
         for (int i = 0; i < 10000; i++) {
             const double value = x + spread * ((i + 0.5) / 5000 - 1);
-            sum += fmin(fmax(value / CLOUD_EDGE, 0), 1) / 10000;
+            sum += fmin(fmax(value / 0.12, 0), 1) / 10000;
         }
-        assert_true(fabs(cloud_density(x, spread) - sum) < 1e-4);
+        assert_true(fabs(cloud_density(x, spread, 0.12) - sum) < 1e-4);
     }
 }
 
 static struct cloud_field make_field(struct fixture *f, enum cloud_type type, double cover)
 {
-    const struct cloud_desc desc = {
-        .layer_count = 1,
-        .seed = 1,
-        .layers = {{type, 900, type == CLOUD_CUMULUS ? 2600 : 1700, cover, 0.04, 8000, 0}}};
+    const struct cloud_desc desc = {.layer_count = 1,
+                                    .seed = 1,
+                                    .layers = {{type, 900, type == CLOUD_CUMULUS ? 2600 : 1700,
+                                                cover, 0.04, 8000, 0, 0, 0, CLOUD_EVERYWHERE}}};
     struct cloud_field field;
     assert_int_equal(cloud_field_init(f->ctx, &desc, RADIUS_M, &field), TRL_OK);
     return field;

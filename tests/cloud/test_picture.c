@@ -25,6 +25,7 @@ static trl_view look(double altitude_m, double pitch_deg)
 {
     trl_view view = trl_view_default();
     view.altitude_m = altitude_m;
+    view.latitude_rad = 10 * DEGREE; // where no hole of a deck happens to be
     view.pitch_rad = pitch_deg * DEGREE;
     view.vertical_fov_rad = 50 * DEGREE;
     view.sun_mode = TRL_SUN_LOCAL;
@@ -162,6 +163,52 @@ static void a_deck_is_bright_from_above_and_dims_the_ground_below(void **state)
     finish_drawer(&deck);
 }
 
+// Straight down on the eye, and on the ring around it.
+static void a_cyclone_is_bright_around_a_dark_eye(void **state)
+{
+    struct fixture *f = *state;
+    struct drawer d = make_drawer(
+        f, ", \"clouds\": {\"cyclones\": [{\"latitude_deg\": 20, \"eye_radius_m\": 40000}],"
+           " \"layers\": [{\"type\": \"stratus\", \"cover\": 0.1, \"cyclone_cover\": 1}]}");
+    trl_view view = look(30000, -90);
+    view.latitude_rad = 20 * DEGREE;
+    float *eye = draw(&d, &view);
+    view.latitude_rad = 20.8 * DEGREE; // 89 km
+    float *ring = draw(&d, &view);
+    // As a deck in the test above, which has the tops nearer.
+    if (!(mean_green(ring) > 3 * mean_green(eye))) {
+        fail_msg("the ring is %g, the eye %g", mean_green(ring), mean_green(eye));
+    }
+    free(eye);
+    free(ring);
+    finish_drawer(&d);
+}
+
+static double green_at(const float *rgba, int row)
+{
+    double sum = 0;
+    for (int x = 0; x < WIDTH; x++) {
+        sum += (double)rgba[4 * (row * WIDTH + x) + 1] / WIDTH;
+    }
+    return sum;
+}
+
+// Within it sky and ground are lost in the same grey. Without it the horizon has a step.
+static void fog_hides_the_ground_from_who_stands_in_it(void **state)
+{
+    struct fixture *f = *state;
+    struct drawer fog = make_drawer(f, LAYERS("{\"type\": \"fog\", \"cover\": 1,"
+                                              " \"top_m\": 300, \"extinction_per_m\": 0.05}"));
+    const trl_view view = look(100, 0);
+    float *rgba = draw(&fog, &view);
+    for (int row = HEIGHT / 2 - 4; row < HEIGHT / 2 + 4; row++) {
+        const double ratio = green_at(rgba, row + 1) / green_at(rgba, row);
+        assert_true(ratio > 0.9 && ratio < 1.1);
+    }
+    free(rgba);
+    finish_drawer(&fog);
+}
+
 static void bad_layers_are_told_in_a_line(void **state)
 {
     struct fixture *f = *state;
@@ -172,6 +219,11 @@ static void bad_layers_are_told_in_a_line(void **state)
         {LAYERS("{\"base_m\": 59000, \"top_m\": 61000}"), "must be"},
         {LAYERS("{}, {\"type\": \"stratus\"}"), "listed from below and apart"},
         {", \"clouds\": {}", "missing"},
+        {LAYERS("{\"belt\": {\"south_deg\": 20, \"north_deg\": 10}}"), "must not be above"},
+        {LAYERS("{\"type\": \"fog\", \"shear_m\": 1e7}"), "shear_m"},
+        {", \"clouds\": {\"layers\": [{}], \"cyclones\": [{\"eye_radius_m\": 2e5}]}",
+         "at most a fifth"},
+        {", \"clouds\": {\"layers\": [{}], \"cyclones\": [{\"radius_m\": 1e8}]}", "radius_m"},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         char text[2048];
@@ -192,6 +244,8 @@ int main(void)
         cmocka_unit_test(bad_layers_are_told_in_a_line),
         cmocka_unit_test(without_cover_the_picture_is_as_without_clouds),
         cmocka_unit_test(a_picture_does_not_depend_on_what_was_drawn_before),
+        cmocka_unit_test(a_cyclone_is_bright_around_a_dark_eye),
+        cmocka_unit_test(fog_hides_the_ground_from_who_stands_in_it),
         cmocka_unit_test(a_deck_is_bright_from_above_and_dims_the_ground_below),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);

@@ -187,11 +187,15 @@ static void a_deck_is_as_bright_as_air_of_that_depth(void **state)
 // are no clouds the bound soon says so.
 static void the_bound_holds(void **state)
 {
-    const struct cloud_desc desc = {.layer_count = 3,
-                                    .seed = 1,
-                                    .layers = {{CLOUD_CUMULUS, 800, 2500, 0.5, 0.04, 8000, 0},
-                                               {CLOUD_STRATUS, 3000, 3400, 0.7, 0.03, 16000, 5},
-                                               {CLOUD_CIRRUS, 8000, 9000, 0.3, 5e-4, 40000, 0}}};
+    const struct cloud_desc desc = {
+        .layer_count = 4,
+        .seed = 1,
+        .layers = {{CLOUD_FOG, 0, 300, 0.6, 0.01, 5000, 0, 0, 0, CLOUD_EVERYWHERE},
+                   {CLOUD_CUMULUS, 800, 2500, 0.5, 0.04, 8000, 0, 500, 0.9, CLOUD_EVERYWHERE},
+                   {CLOUD_STRATUS, 3000, 3400, 0.7, 0.03, 16000, 5, 0, 0.9, {-0.5, 0.5, 0.3}},
+                   {CLOUD_CIRRUS, 8000, 9000, 0.4, 1e-3, 40000, 0, 6000, 0.7, CLOUD_EVERYWHERE}},
+        .cyclone_count = 2,
+        .cyclones = {{0.3, 1, 3e6, 1e5}, {-0.5, -2, 2e6, 1e4}}};
     struct cloud_field field;
     assert_int_equal(cloud_field_init(*state, &desc, RADIUS_M, &field), TRL_OK);
     cloud_field_set_time(&field, 3600);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Extinction of the first layer at a place, with its height.
-#include "cloud/field.glsl"
+#include "cloud/weather.glsl"
 
 uniform vec4 u_place; // relative to the eye, m; level
 
