@@ -22,8 +22,8 @@
 // of 60 degrees along the ground sees, is 570 thousand triangles.
 enum { CHUNK_CELLS = TRL_HEMISPHERE_STEP };
 // Where no ground is in view the grid is made anew after this part of the way that the camera may
-// go, so that it need not change when ground is. That is found with rays through the picture's lower
-// border, in steps that grow, above the ground by a part of the way.
+// go, so that it need not change when ground is. That is found with rays through the picture's
+// lower border, in steps that grow, above the ground by a part of the way.
 static const double UNSEEN_MOVE = 0.2, RAY_STEP = 1.2, RAY_MARGIN = 0.02;
 enum { RAYS = 8 };
 // The higher the camera, the more of the grid is in view at once, and the smaller it is there:
