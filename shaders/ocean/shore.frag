@@ -34,7 +34,7 @@ void main()
     vec3 local = sea_grid_local(radius, sea_grid_azimuth(grid, vertex.x), u_anchor.w);
     vec2 geo = geo_from_local(local, u_anchor.w);
     float footprint = log2(2.0 * max(sea_grid_long(grid, radius), sea_grid_wide(grid, radius)));
-    vec2 water = terrain_water(ground_at(geo), footprint);
+    vec2 water = terrain_water(ground_at(geo), footprint).xy;
     float depth = SHORE_DEEP_M;
 #ifdef HAS_DEPTH
     depth = shore_depth(u_sea_depth < 0.0 ? water.y : u_sea_depth);

@@ -21,6 +21,37 @@ struct LookPlace {
     float log2_pixel; // of a pixel's width there, m
 };
 
+// Of the ground at a place: its slope, log2 of a texel of its heights, a tone of made-up detail.
+struct LookGround {
+    float steep, log2_texel, tone;
+};
+
+// Part of a footprint that is open water, where the masks say `water` (see terrain_water).
+float look_shore(vec3 water, Tangent t, LookGround ground)
+{
+    float part = water.x;
+#if defined(HAS_DEPTH) && ELEVATION_COUNT > 0
+    // No branch, but a loop that dry ground does not enter.
+    int count = water.x > 0.0 ? 1 : 0;
+    for (int i = 0; i < count; i++) {
+        float altitude = layers_altitude_linear(0.0, t.ground, t.log2_footprint);
+        float around = layers_altitude_linear(0.0, t.ground, max(t.log2_footprint, water.z + 1.0));
+        around *= 1.0 - smoothstep(0.0, 2.0, water.z - ground.log2_texel);
+        float width = exp2(t.log2_footprint);
+        part = shore_water(Shore(water.x, width * exp2(-water.z), water.y > 0.5 / 255.0 ? 1.0 : 0.0,
+                                 altitude, around, width * ground.steep,
+                                 clamp(ground.tone, -1.0, 1.0)));
+    }
+#endif
+    return part;
+}
+
+// Its depth as a code of shared/sea.glsl: toward land, where it may be unknown, it shelves.
+float look_shore_depth(vec3 water)
+{
+    return max(water.y, 1.0 - water.x * water.x);
+}
+
 #ifdef HAS_NOISE
 // Linear albedo of rock, and how much of its colour is that of the pictures, where that is no
 // brighter; tangents of the slopes from which, and above which, it is bare.
@@ -58,9 +89,9 @@ Look find_look(Tangent t, LookPlace p)
     slope -= t.up * dot(slope, t.up);
     float steep = length(slope);
     Look look;
-    vec2 water = terrain_water(t.ground, t.log2_footprint);
-    look.water = water.x;
-    look.depth = water.y;
+    vec3 water = terrain_water(t.ground, t.log2_footprint);
+    look.water = look_shore(water, t, LookGround(length(base.slope), base.view.texel, r.tone));
+    look.depth = look_shore_depth(water);
     vec3 albedo = u_default_albedo;
     vec3 region = u_default_albedo;
 #ifdef HAS_GROUND
@@ -116,8 +147,9 @@ Look find_look(Tangent t, LookPlace p)
     vec4 flat_ground = vec4(0.0, 0.0, 0.0, SLOPE_NO_DATA);
     vec4 slope = terrain_slope(layers_slope(flat_ground, 0.0, t), t);
     vec3 root = sqrt(u_default_albedo);
-    vec2 water = terrain_water(t.ground, t.log2_footprint);
-    return Look(terrain_albedo(root, t.ground, t.log2_footprint), water.x, water.y,
+    vec3 water = terrain_water(t.ground, t.log2_footprint);
+    float part = look_shore(water, t, LookGround(length(slope.xyz), slope.w, 0.0));
+    return Look(terrain_albedo(root, t.ground, t.log2_footprint), part, look_shore_depth(water),
                 normalize(t.up - slope.xyz),
                 terrain_albedo(root, t.ground, max(t.log2_footprint, u_region)));
 }

@@ -16,18 +16,20 @@ uniform sampler2D u_water2;
 uniform sampler2D u_water3;
 #endif
 
-// Of a mask the part that is water, and where it tells depths the code of shared/sea.glsl.
-vec2 layer_over_mask(vec2 below, sampler2D mask, LayerFrame frame, float mode, Ground g,
+// Of a mask the part that is water, where it tells depths the code of shared/sea.glsl, and log2 of
+// a texel's height in m.
+vec3 layer_over_mask(vec3 below, sampler2D mask, LayerFrame frame, float mode, Ground g,
                      float log2_footprint)
 {
     vec3 at = layer_locate(frame, g);
     vec2 texel = layer_fetch(mask, frame, at.xy, log2_footprint - frame.texel.z).xy;
-    return vec2(layer_blend(mode, below.x, texel.x, at.z), mix(below.y, texel.y, at.z));
+    return vec3(layer_blend(mode, below.x, texel.x, at.z),
+                mix(below.yz, vec2(texel.y, frame.texel.z), at.z));
 }
 
-vec2 terrain_water(Ground g, float log2_footprint)
+vec3 terrain_water(Ground g, float log2_footprint)
 {
-    vec2 w = vec2(0.0);
+    vec3 w = vec3(0.0);
 #if WATER_COUNT > 0
     w = layer_over_mask(w, u_water0, LAYER_FRAME(u_water, 0), u_water_modes.x, g, log2_footprint);
 #endif

@@ -456,7 +456,7 @@ static trl_result upload_bytes(struct gpu *gpu, enum gpu_format format, const ui
 }
 
 trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
-                              struct terrain_layer *layer)
+                              const struct layer_touch *touch, struct terrain_layer *layer)
 {
     const struct raster_window w = texture_window(raster, gpu);
     const size_t count = (size_t)w.out_width * w.out_height;
@@ -464,6 +464,9 @@ trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
     trl_result result = rgba ? raster_read_rgba8(raster, &w, rgba) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
         result = voids_fill_picture(raster, &layer->frame, rgba);
+    }
+    if (result == TRL_OK && touch) {
+        result = touch->touch(touch->user, layer, rgba);
     }
     if (result == TRL_OK) {
         layer_take_roots(&layer->cover, rgba, count);

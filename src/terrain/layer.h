@@ -108,9 +108,17 @@ void layer_scale_texture(const struct gpu *gpu, struct terrain_layer *layer);
 // Texture of heights from the heights on the CPU.
 TRL_MUST_USE trl_result layer_upload_heights(struct gpu *gpu, struct terrain_layer *layer);
 
+// Changes the bytes of a picture, sRGB and alpha, after they are read; a pointer to it may be
+// NULL.
+struct layer_touch {
+    trl_result (*touch)(const void *user, const struct terrain_layer *layer, uint8_t *rgba);
+    const void *user;
+};
+
 // Texture of a picture, encoded as the square root of the linear value; alpha is its coverage, less
-// toward gaps. TRL_ERROR_INVALID also when it is void everywhere.
+// toward gaps. TRL_ERROR_INVALID also when it is void everywhere; what `touch` may return.
 TRL_MUST_USE trl_result layer_load_picture(struct gpu *gpu, const struct raster *raster,
+                                           const struct layer_touch *touch,
                                            struct terrain_layer *layer);
 
 // The same of a picture of normals, which is kept as it is. On the GPU only.

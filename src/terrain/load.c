@@ -154,6 +154,7 @@ static trl_result read_layer(struct loader *loader, const struct surface_layer_d
                              const struct raster *raster, struct terrain_layer *layer)
 {
     struct surface *s = loader->surface;
+    const struct layer_touch shore = {load_paint_shore, s};
     switch (desc->kind) {
     case SURFACE_ELEVATION:
         return load_elevation(loader, desc, raster, layer);
@@ -162,7 +163,8 @@ static trl_result read_layer(struct loader *loader, const struct surface_layer_d
     case SURFACE_NORMAL:
         return layer_load_normals(s->gpu, raster, layer);
     default:
-        return layer_load_picture(s->gpu, raster, layer);
+        return layer_load_picture(s->gpu, raster, desc->kind == SURFACE_COLOUR ? &shore : NULL,
+                                  layer);
     }
 }
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #ifndef TERRAIN_LOAD_H
 #define TERRAIN_LOAD_H
-// Private to load.c (rasters held whole), load_sea.c and load_tiles.c (those held in tiles).
+// Private to load.c (rasters held whole), load_colour.c, load_sea.c and load_tiles.c (those held in
+// tiles).
 
 #include "base/context.h"
 #include "terrain/surface.h"
@@ -54,6 +55,12 @@ TRL_MUST_USE trl_result load_upload_depths(struct surface *surface);
 
 // Raises the layer's heights to sea level where water is. TRL_ERROR_MEMORY.
 TRL_MUST_USE trl_result load_raise_sea(const struct loader *loader, struct terrain_layer *layer);
+
+// Of a picture beside open water that is drawn by itself: colours of land go on some texels beyond
+// the shore. `surface` is a struct surface, whose masks are there. As the touch of layer.h;
+// TRL_ERROR_MEMORY.
+TRL_MUST_USE trl_result load_paint_shore(const void *surface, const struct terrain_layer *layer,
+                                         uint8_t *rgba);
 
 // Chooses which of the opened rasters are held in tiles: none when all fit; else the largest, until
 // the others take no more than half of what is allowed. Those behind a network always are, and

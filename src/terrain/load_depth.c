@@ -23,10 +23,15 @@ trl_result load_mask(struct surface *surface, const struct raster *raster,
     return result;
 }
 
-// Water that does not lie below the sphere is no sea, and how deep it is nobody knows.
-static uint8_t code_of(double altitude_m)
+// Water that does not lie below the sphere is no sea, and how deep it is nobody knows: 0, which
+// tells it from the sea. False: no depth is found there.
+static bool note_altitude(double altitude_m, uint8_t *code)
 {
-    return altitude_m >= 0 ? 0 : (uint8_t)lrint(255 * sea_depth_code(-altitude_m));
+    if (altitude_m < 0) {
+        const uint8_t depth = (uint8_t)lrint(255 * sea_depth_code(-altitude_m));
+        *code = depth > 0 ? depth : 1;
+    }
+    return altitude_m < 0;
 }
 
 // Whether a row of a mask along a circle of latitude can meet the layer at all.
@@ -58,24 +63,20 @@ struct mask_row {
     uint8_t *codes;
 };
 
-// Codes are interpolated, so land beside water takes that of the water: the step to the texel's
-// own or its neighbour's, in columns and rows. False: there is none.
+// To a texel's neighbours, in columns and rows; itself first, those across last.
 struct step {
     int x, y;
 };
-static bool find_water(const struct mask_row *row, uint32_t x, struct step *step)
+static const struct step STEPS[] = {{0, 0},   {-1, 0}, {1, 0},  {0, -1}, {0, 1},
+                                    {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+enum { STEP_COUNT = sizeof STEPS / sizeof STEPS[0] };
+
+static bool is_water(const struct mask_row *row, uint32_t x, struct step step)
 {
-    const size_t width = row->frame->width;
-    const uint8_t *at = row->water + x;
-    const bool is_west = x > 0 && at[-1], is_east = x + 1 < width && at[1];
-    const bool is_north = row->y > 0 && *(at - width);
-    const bool is_south = row->y + 1 < row->frame->height && at[width];
-    *step = (struct step){0, 0};
-    if (!at[0]) {
-        step->x = is_west ? -1 : is_east;
-        step->y = step->x != 0 ? 0 : is_north ? -1 : is_south;
-    }
-    return at[0] || step->x != 0 || step->y != 0;
+    const int64_t width = row->frame->width, height = row->frame->height;
+    const int64_t column = (int64_t)x + step.x, line = (int64_t)row->y + step.y;
+    return column >= 0 && column < width && line >= 0 && line < height &&
+           row->water[(int64_t)x + step.x + step.y * width];
 }
 
 static struct layer_place find_place(const struct mask_row *row, const struct layer_frame *f,
@@ -117,30 +118,41 @@ static struct layer_place place_along(const struct stretch *s, double x)
                                 s->ends[0].weight};
 }
 
-// Texels of the mask that have water take the height where they are.
+struct noter {
+    const struct mask_row *row;
+    const struct terrain_layer *layer;
+    int64_t same;
+    struct stretch stretch;
+};
+
+// NaN: the layer is not there.
+static double find_altitude(struct noter *n, uint32_t x, struct step step)
+{
+    if (n->same >= 0) {
+        return layer_texel(n->layer, (int64_t)x + step.x, n->same + step.y);
+    }
+    const struct layer_frame *f = &n->layer->frame;
+    if (x >= n->stretch.end) {
+        n->stretch = stretch_make(n->row, f, x);
+    }
+    const double at_x = (double)x + step.x, at_y = (double)n->row->y + step.y;
+    const struct layer_place p = n->stretch.is_straight && step.y == 0
+                                     ? place_along(&n->stretch, at_x)
+                                     : find_place(n->row, f, at_x, at_y);
+    return p.weight > 0 ? layer_sample_held_linear(n->layer, p.x, p.y) : (double)NAN;
+}
+
+// Texels of the mask take the depth where they are. Codes are interpolated, so land beside the sea
+// takes that of the sea there, and so does what rises out of it.
 static void note_row(const struct mask_row *row, const struct terrain_layer *layer)
 {
-    const struct layer_frame *f = &layer->frame;
-    const int64_t same = find_same_row(row->frame, f, row->y);
-    struct stretch stretch = {.end = 0};
+    struct noter n = {row, layer, find_same_row(row->frame, &layer->frame, row->y), {.end = 0}};
     for (uint32_t x = 0; x < row->frame->width; x++) {
-        struct step step;
-        if (!find_water(row, x, &step)) {
-            continue;
-        }
-        if (same >= 0) {
-            row->codes[x] = code_of(layer_texel(layer, (int64_t)x + step.x, same + step.y));
-            continue;
-        }
-        if (x >= stretch.end) {
-            stretch = stretch_make(row, f, x);
-        }
-        const double at_x = (double)x + step.x, at_y = (double)row->y + step.y;
-        const struct layer_place p = stretch.is_straight && step.y == 0
-                                         ? place_along(&stretch, at_x)
-                                         : find_place(row, f, at_x, at_y);
-        if (p.weight > 0) {
-            row->codes[x] = code_of(layer_sample_held_linear(layer, p.x, p.y));
+        bool is_noted = false;
+        for (int i = 0; i < STEP_COUNT && !is_noted; i++) {
+            if (is_water(row, x, STEPS[i])) {
+                is_noted = note_altitude(find_altitude(&n, x, STEPS[i]), row->codes + x);
+            }
         }
     }
 }

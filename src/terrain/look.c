@@ -4,6 +4,7 @@
 
 #include "shared/blend.glsl"
 #include "shared/sea.glsl"
+#include "shared/shore.glsl"
 
 #include <math.h>
 
@@ -57,25 +58,88 @@ bool surface_picture(const struct surface *surface, enum surface_kind kind, stru
     return is_covered;
 }
 
-double surface_water(const struct surface *surface, struct vec3 direction, double *depth_code)
+// What the masks say: part that is water, between texels; its depth as a code; a texel's height.
+struct mask_look {
+    double water, code, texel_rad;
+};
+
+static struct mask_look find_mask(const struct surface *surface, struct place at)
 {
-    const struct place at = find_place(direction);
-    double water = 0;
-    *depth_code = 0;
+    struct mask_look look = {0};
     for (size_t i = 0; i < surface->counts[SURFACE_WATER] && surface->depth.is_told; i++) {
         const struct layer_frame *frame = &surface->layers[SURFACE_WATER][i].frame;
         const struct layer_place p = layer_locate(frame, at.latitude, at.longitude);
         if (!(p.weight > 0) || !surface->masks[i]) {
             continue;
         }
-        const size_t index = layer_texel_index(frame, lrint(p.x), lrint(p.y));
-        water += p.weight * (surface->masks[i][index] / 255.0 - water);
-        *depth_code = surface->depths[i] ? surface->depths[i][index] / 255.0 : 0;
+        const double part_x = p.x - floor(p.x), part_y = p.y - floor(p.y);
+        double water = 0, code = 0;
+        for (int k = 0; k < 4; k++) {
+            const double weight = (k % 2 ? part_x : 1 - part_x) * (k / 2 ? part_y : 1 - part_y);
+            const size_t index =
+                layer_texel_index(frame, (int64_t)floor(p.x) + k % 2, (int64_t)floor(p.y) + k / 2);
+            water += weight * surface->masks[i][index] / 255;
+            code += surface->depths[i] ? weight * surface->depths[i][index] / 255 : 0;
+        }
+        look.water += p.weight * (water - look.water);
+        look.code += p.weight * (code - look.code);
+        look.texel_rad = frame->texel_height;
     }
-    if (surface->depth.everywhere_m >= 0) {
-        *depth_code = sea_depth_code(surface->depth.everywhere_m);
+    return look;
+}
+
+// Of the layers without octaves, linear between texels, as shaders look at it; and their texel.
+static double find_level(const struct surface *surface, struct place at, double *texel_rad)
+{
+    double altitude = 0;
+    for (size_t i = 0; i < surface->counts[SURFACE_ELEVATION]; i++) {
+        const struct terrain_layer *layer = &surface->layers[SURFACE_ELEVATION][i];
+        const struct layer_place p = layer_locate(&layer->frame, at.latitude, at.longitude);
+        if (p.weight > 0) {
+            altitude =
+                blend_layers(layer->mode, altitude, layer_sample_linear(layer, p.x, p.y), p.weight);
+            *texel_rad = layer_finest_frame(layer)->texel_height;
+        }
     }
-    return water;
+    return altitude;
+}
+
+// Mean of what is around, where heights are no finer than the mask: as the next level of detail.
+static double find_around(const struct surface *surface, struct place at, double mask_rad,
+                          double texel_rad)
+{
+    const double finer = fmax(0, fmin(1, 0.5 * log2(mask_rad / texel_rad)));
+    const double share = 1 - finer * finer * (3 - 2 * finer);
+    double sum = 0;
+    for (int k = 0; k < 4 && share > 0; k++) {
+        const struct place beside = {at.latitude + (k / 2 - 0.5) * mask_rad,
+                                     at.longitude + (k % 2 - 0.5) * mask_rad / cos(at.latitude)};
+        sum += find_level(surface, beside, &texel_rad);
+    }
+    return share * sum / 4;
+}
+
+double surface_water(const struct surface *surface, struct vec3 direction, double *depth_code)
+{
+    const struct place at = find_place(direction);
+    const struct mask_look mask = find_mask(surface, at);
+    const double shelf = 1 - mask.water * mask.water;
+    *depth_code = surface->depth.everywhere_m >= 0 ? sea_depth_code(surface->depth.everywhere_m)
+                                                   : fmax(mask.code, mask.water > 0 ? shelf : 0);
+    if (!(mask.water > 0) || surface->counts[SURFACE_ELEVATION] == 0) {
+        return mask.water;
+    }
+    struct noise_place place;
+    double texel_rad = mask.texel_rad;
+    const double altitude_m = find_level(surface, at, &texel_rad);
+    const double made = noise_is_there(&surface->noise)
+                            ? surface_relief(surface, vec3_normalize(direction), &place).tone
+                            : 0;
+    return shore_water((Shore){.mask = mask.water,
+                               .sea = mask.code > 0.5 / 255,
+                               .altitude = altitude_m,
+                               .around = find_around(surface, at, mask.texel_rad, texel_rad),
+                               .made = fmax(-1, fmin(1, made))});
 }
 
 static bool is_within(const struct layer_frame *frame, struct vec3 up, double reach_rad)

@@ -12,6 +12,7 @@
 #include "shared/projection.glsl"
 #include "shared/projective.glsl"
 #include "shared/sea.glsl"
+#include "shared/shore.glsl"
 #include "shared/sky_map.glsl"
 
 #include <math.h>
@@ -319,6 +320,33 @@ static void seas_agree(void **state)
     gpu_program_finish(&program);
 }
 
+static void shores_agree(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_program program = make_program(f);
+    gpu_program_set_float(&program, "u_wants_sea", 2);
+    const float masks[] = {0, 0.3f, 0.55f, 0.9f, 1}, altitudes[] = {-3, 0, 0.4f, 40};
+    for (int i = 0; i < 5 * 4 * 4; i++) {
+        // Mask and texels in a footprint; altitude, that around, rise, made-up detail.
+        const float angle[4] = {masks[i % 5], i / 20 == 3 ? 0.6f : 0.05f, 0, 0};
+        const float shell[4] = {altitudes[i / 5 % 4], 20.0f * (float)(i / 20), 2,
+                                0.4f * (float)(i / 20) - 0.5f};
+        gpu_program_set_vec4(&program, "u_angle", angle);
+        gpu_program_set_vec4(&program, "u_shell", shell);
+        const struct texel got = draw(f, &program);
+        for (int k = 0; k < 2; k++) {
+            const double wanted =
+                shore_water((Shore){(double)angle[0], (double)angle[1], 1 - k, (double)shell[0],
+                                    (double)shell[1], (double)shell[2], (double)shell[3]});
+            assert_true(wanted >= 0 && wanted <= 1);
+            if (fabs((double)got.rgba[k] - wanted) > 1e-5) {
+                fail_msg("%d, %d: GPU %.9g, C %.17g", i, k, (double)got.rgba[k], wanted);
+            }
+        }
+    }
+    gpu_program_finish(&program);
+}
+
 static void blends_agree(void **state)
 {
     struct fixture *f = *state;
@@ -391,6 +419,7 @@ int main(void)
         cmocka_unit_test(projective_rays_agree),
         cmocka_unit_test(blends_agree),
         cmocka_unit_test(seas_agree),
+        cmocka_unit_test(shores_agree),
         cmocka_unit_test(projections_agree),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);

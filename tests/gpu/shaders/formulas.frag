@@ -9,6 +9,7 @@
 #include "shared/profile.glsl"
 #include "shared/projection.glsl"
 #include "shared/sea.glsl"
+#include "shared/shore.glsl"
 #include "shared/sky_map.glsl"
 
 uniform vec4 u_angle; // cosine, g
@@ -60,6 +61,12 @@ void main()
     vec4 seas = vec4(fresnel_reflectance(u_angle.x, u_angle.y), sea_hidden(u_angle.x, u_shell.x),
                      sea_glint(u_angle.x, 0.8, u_shell.y, u_shell.z, u_shell.x, 1.34),
                      sea_code_depth(sea_depth_code(u_shell.w)));
+    seas = u_wants_sea > 1.5 ? vec4(shore_water(Shore(u_angle.x, u_angle.y, 1.0, u_shell.x,
+                                                      u_shell.y, u_shell.z, u_shell.w)),
+                                    shore_water(Shore(u_angle.x, u_angle.y, 0.0, u_shell.x,
+                                                      u_shell.y, u_shell.z, u_shell.w)),
+                                    0.0, 0.0)
+                             : seas;
     o_color = u_wants_sea > 0.5          ? seas
               : u_wants_projection > 0.5 ? projections
               : u_wants_blend > 0.5      ? blends

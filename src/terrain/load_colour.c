@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Pictures of planets show the sea in its own colour. Where the sea is drawn by itself, land that
+// the picture has no texel for would be as blue: beside the shore, and on small islands. So colours
+// of land go on for some texels beyond it.
+#include "terrain/land_mean.h"
+#include "terrain/load.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    REACH = 4,       // texels beyond the land
+    SHORE = 1,       // texels of land that the sea may have coloured
+    DRY = 26,        // of 255: at most this much water
+    STATE_SEA = 255, // not reached yet; below: in which step a texel had its colour
+    STATE_SHORE = 254
+};
+
+struct painter {
+    const struct surface *surface;
+    const struct layer_frame *frame;
+    uint8_t *rgba;
+    uint8_t *states, *next; // owned; of each texel
+};
+
+// What the last mask that covers a place says.
+static uint8_t find_water(const struct surface *s, struct layer_geo at)
+{
+    uint8_t water = 0;
+    for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
+        const struct layer_frame *mask = &s->layers[SURFACE_WATER][i].frame;
+        const struct layer_place p = layer_locate(mask, at.latitude, at.longitude);
+        if (p.weight > 0 && s->masks[i]) {
+            water = s->masks[i][layer_texel_index(mask, lrint(p.x), lrint(p.y))];
+        }
+    }
+    return water;
+}
+
+// The only mask, where its rows are those of the picture.
+static const struct layer_frame *find_level_mask(const struct painter *p)
+{
+    const struct surface *s = p->surface;
+    const struct layer_frame *mask = &s->layers[SURFACE_WATER][0].frame;
+    const bool is_level = s->counts[SURFACE_WATER] == 1 && s->masks[0] && mask->pole == 0 &&
+                          mask->is_whole_circle && p->frame->pole == 0;
+    return is_level ? mask : NULL;
+}
+
+static void find_dry_row(const struct painter *p, const struct layer_frame *mask, uint32_t y)
+{
+    const struct layer_frame *f = p->frame;
+    uint8_t *row = p->states + (size_t)y * f->width;
+    const struct layer_geo west = layer_geo_of(f, 0, y);
+    const struct layer_place first =
+        mask ? layer_locate(mask, west.latitude, west.longitude) : (struct layer_place){0};
+    const double step = mask ? f->texel_width / mask->texel_width : 0;
+    const uint8_t *masked =
+        mask ? p->surface->masks[0] + layer_texel_index(mask, 0, lrint(first.y)) : NULL;
+    for (uint32_t x = 0; x < f->width; x++) {
+        uint8_t water = 0;
+        if (first.weight > 0) {
+            const int64_t column = (int64_t)(first.x + x * step + 0.5);
+            water = masked[column < mask->width ? column : column - mask->width];
+        } else {
+            water = find_water(p->surface, layer_geo_of(f, x, y));
+        }
+        row[x] = water > DRY ? STATE_SEA : 0;
+    }
+}
+
+// Whether a texel beside this one, or how many, had a colour before a step; sums those up.
+static int sum_around(const struct painter *p, const size_t around[8], int step, int sum[3])
+{
+    int count = 0;
+    for (int k = 0; k < 8; k++) {
+        if (p->states[around[k]] < step) {
+            for (int c = 0; sum && c < 3; c++) {
+                sum[c] += p->rgba[4 * around[k] + (size_t)c];
+            }
+            count++;
+        }
+    }
+    return count;
+}
+
+static void find_around(const struct layer_frame *f, uint32_t x, uint32_t y, size_t around[8])
+{
+    const size_t w = f->width, i = (size_t)y * w + x;
+    if (x > 0 && y > 0 && x + 1 < f->width && y + 1 < f->height) {
+        const size_t inside[8] = {i - w - 1, i - w,     i - w + 1, i - 1,
+                                  i + 1,     i + w - 1, i + w,     i + w + 1};
+        memcpy(around, inside, sizeof inside);
+        return;
+    }
+    int n = 0;
+    for (int64_t dy = -1; dy <= 1; dy++) {
+        for (int64_t dx = -1; dx <= 1; dx++) {
+            if (dx != 0 || dy != 0) {
+                around[n++] = layer_texel_index(f, (int64_t)x + dx, (int64_t)y + dy);
+            }
+        }
+    }
+}
+
+static bool is_beside_sea(const struct painter *p, const size_t around[8])
+{
+    bool is_beside = false;
+    for (int k = 0; k < 8; k++) {
+        is_beside = is_beside || p->states[around[k]] == STATE_SEA;
+    }
+    return is_beside;
+}
+
+// Marks in `next` what the next step changes: land beside the sea, or texels of that state that
+// have a neighbour with a colour.
+static void mark(const struct painter *p, int step, uint8_t state)
+{
+    const struct layer_frame *f = p->frame;
+#pragma omp parallel for schedule(dynamic, 16)
+    for (uint32_t y = 0; y < f->height; y++) {
+        for (uint32_t x = 0; x < f->width; x++) {
+            const size_t i = (size_t)y * f->width + x;
+            size_t around[8];
+            p->next[i] = 0;
+            if (p->states[i] == state) {
+                find_around(f, x, y, around);
+                p->next[i] =
+                    state == 0 ? is_beside_sea(p, around) : sum_around(p, around, step, NULL) > 0;
+            }
+        }
+    }
+}
+
+static void paint_step(const struct painter *p, int step)
+{
+    const struct layer_frame *f = p->frame;
+#pragma omp parallel for schedule(dynamic, 16)
+    for (uint32_t y = 0; y < f->height; y++) {
+        for (uint32_t x = 0; x < f->width; x++) {
+            const size_t i = (size_t)y * f->width + x;
+            size_t around[8];
+            int sum[3] = {0};
+            if (p->next[i]) {
+                find_around(f, x, y, around);
+                const int count = sum_around(p, around, step, sum);
+                for (int c = 0; c < 3; c++) {
+                    p->rgba[4 * i + (size_t)c] = (uint8_t)((sum[c] + count / 2) / count);
+                }
+            }
+        }
+    }
+}
+
+static void set_marked(const struct painter *p, int state)
+{
+    const size_t count = (size_t)p->frame->width * p->frame->height;
+#pragma omp parallel for
+    for (size_t i = 0; i < count; i++) {
+        p->states[i] = p->next[i] ? (uint8_t)state : p->states[i];
+    }
+}
+
+// What is left of the shore are islands, of which no texel is sure: they look like the land around.
+static void paint_islands(const struct painter *p, const struct land_mean *mean, int step)
+{
+    const struct layer_frame *f = p->frame;
+#pragma omp parallel for schedule(dynamic, 16)
+    for (uint32_t y = 0; y < f->height; y++) {
+        for (uint32_t x = 0; x < f->width; x++) {
+            const size_t i = (size_t)y * f->width + x;
+            if (p->states[i] == STATE_SHORE) {
+                land_mean_at(mean, x, y, p->rgba + 4 * i);
+                p->states[i] = (uint8_t)step;
+            }
+        }
+    }
+}
+
+static trl_result paint(const struct painter *p)
+{
+    const struct layer_frame *f = p->frame;
+    const struct layer_frame *mask = find_level_mask(p);
+#pragma omp parallel for schedule(dynamic, 16)
+    for (uint32_t y = 0; y < f->height; y++) {
+        find_dry_row(p, mask, y);
+    }
+    mark(p, 0, 0);
+    set_marked(p, STATE_SHORE);
+    struct land_mean mean;
+    const trl_result result = land_mean_init(p->surface->ctx, f, p->rgba, p->states, &mean);
+    if (result != TRL_OK) {
+        return result;
+    }
+    for (int step = 1; step <= SHORE; step++) {
+        mark(p, step, STATE_SHORE);
+        paint_step(p, step);
+        set_marked(p, step);
+    }
+    paint_islands(p, &mean, SHORE);
+    land_mean_finish(&mean);
+    for (int step = SHORE + 1; step <= SHORE + REACH; step++) {
+        mark(p, step, STATE_SEA);
+        paint_step(p, step);
+        set_marked(p, step);
+    }
+    return TRL_OK;
+}
+
+trl_result load_paint_shore(const void *user, const struct terrain_layer *layer, uint8_t *rgba)
+{
+    const struct surface *s = user;
+    if (s->counts[SURFACE_WATER] == 0 || !s->depth.is_told || layer->cover.is_there) {
+        return TRL_OK;
+    }
+    const size_t count = (size_t)layer->frame.width * layer->frame.height;
+    struct painter p = {.surface = s, .frame = &layer->frame, .rgba = rgba};
+    p.states = mem_alloc(s->ctx, count, 1);
+    p.next = mem_alloc(s->ctx, count, 1);
+    const trl_result result = p.states && p.next ? paint(&p) : TRL_ERROR_MEMORY;
+    mem_free(s->ctx, p.states);
+    mem_free(s->ctx, p.next);
+    return result;
+}

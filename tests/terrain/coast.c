@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+// Where water ends: between the texels of a mask, and beside pictures that show the sea.
+#include "fixture.h"
+#include "terrain/look.h"
+
+static const double DEGREE = 0.017453292519943295;
+static const double R = 6.4e6;
+
+enum { ELEVATION, WATER, COLOUR, LAYERS };
+
+// The sea west of Greenwich, with a steep rock in it that only heights know; land east of it, with
+// a lake in the hills of its north and a depression in its south.
+static bool is_island(double latitude, double longitude)
+{
+    return longitude > -62 && longitude < -58 && latitude > -2 && latitude < 2;
+}
+
+static bool is_lake(double latitude, double longitude)
+{
+    return longitude > 40 && longitude < 60 && latitude > 20 && latitude < 40;
+}
+
+static double find_height(double latitude, double longitude)
+{
+    if (fabs(longitude + 20) < 1.5 && fabs(latitude) < 1.5) {
+        return 300;
+    }
+    if (longitude < 0 && !is_island(latitude, longitude)) {
+        return -10;
+    }
+    return latitude > 10 ? 500 : latitude < -30 ? -50 : 100;
+}
+
+static double find_water(double latitude, double longitude)
+{
+    const bool is_sea = longitude < 0 && !is_island(latitude, longitude);
+    return is_sea || is_lake(latitude, longitude) ? 255 : 0;
+}
+
+// A picture that is too coarse for the island, and shows it nearly as the sea.
+static double find_colour(double latitude, double longitude)
+{
+    return is_island(latitude, longitude) ? 60 : longitude < 0 ? 20 : 200;
+}
+
+static struct surface_desc describe(const struct fixture *f, char paths[LAYERS][128],
+                                    struct surface_layer_desc layers[LAYERS])
+{
+    static const enum surface_kind KINDS[LAYERS] = {SURFACE_ELEVATION, SURFACE_WATER,
+                                                    SURFACE_COLOUR};
+    const struct raster_place fine = {-180, 90, 0.5, 720, 360}, coarse = {-180, 90, 2, 180, 90};
+    fixture_write_heights(f, "heights", &fine, find_height, paths[ELEVATION]);
+    fixture_write_bytes(f, "water", &coarse, find_water, paths[WATER]);
+    fixture_write_bytes(f, "colour", &coarse, find_colour, paths[COLOUR]);
+    for (int i = 0; i < LAYERS; i++) {
+        layers[i] = (struct surface_layer_desc){.kind = KINDS[i], .path = paths[i], .scale = 1};
+    }
+    struct surface_desc desc = surface_desc_default();
+    desc.radius_m = R;
+    desc.layer_count = LAYERS;
+    desc.layers = layers;
+    desc.is_strict = true;
+    desc.depth = (struct surface_depth){.is_told = true, .everywhere_m = -1};
+    return desc;
+}
+
+// Latitude, longitude, and the part that is water.
+static const double PLACES[][3] = {
+    {0, -40, 1},   // open sea
+    {0, -20, 0},   // the rock in it
+    {0, -0.97, 1}, // a mask's texel ends half way between its middle and the land's
+    {0, 0.6, 0},   // heights have begun to rise
+    {0, 30, 0},    // dry land
+    {-50, 30, 0},  // below sea level, and dry
+    {-50, 1.5, 0}, // the same beside the sea
+    {30, 50, 1},   // a lake's middle
+    {30, 40.6, 1}, // its texels end at 40 degrees
+    {30, 39.4, 0},
+};
+
+static void water_ends_where_mask_and_heights_say(void **state)
+{
+    const struct fixture *f = *state;
+    char paths[LAYERS][128];
+    struct surface_layer_desc layers[LAYERS];
+    const struct surface_desc desc = describe(f, paths, layers);
+    struct surface on_cpu, on_gpu;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &on_cpu), TRL_OK);
+    assert_int_equal(surface_init(f->gpu, &desc, &on_gpu), TRL_OK);
+    for (size_t i = 0; i < sizeof PLACES / sizeof PLACES[0]; i++) {
+        const double *p = PLACES[i];
+        double code;
+        const struct vec3 up = vec3_from_lat_lon(p[0] * DEGREE, p[1] * DEGREE);
+        assert_close(surface_water(&on_cpu, up, &code), p[2], 0);
+        const struct camera_place place = {p[0], p[1], R, 2000, 0, -90, 20};
+        const struct camera camera = fixture_camera(&place);
+        const struct composed c = fixture_compose_middle(f, &on_gpu, &camera);
+        assert_close(c.albedo_water[3] / 255.0, p[2], 0.01);
+    }
+    surface_finish(&on_gpu);
+    surface_finish(&on_cpu);
+}
+
+static double find_red(const struct surface *s, double latitude, double longitude)
+{
+    double rgb[3] = {0};
+    const struct vec3 up = vec3_from_lat_lon(latitude * DEGREE, longitude * DEGREE);
+    assert_true(surface_picture(s, SURFACE_COLOUR, up, rgb));
+    return rgb[0];
+}
+
+static void land_is_not_painted_as_the_sea_beside_it(void **state)
+{
+    const struct fixture *f = *state;
+    char paths[LAYERS][128];
+    struct surface_layer_desc layers[LAYERS];
+    struct surface_desc desc = describe(f, paths, layers);
+    struct surface s;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &s), TRL_OK);
+    // 200 and 20 of 255, linear; a byte of roots is 0.005.
+    const double land = 0.578, sea = 0.007;
+    assert_close(find_red(&s, 0, 20), land, 0.005);
+    assert_close(find_red(&s, 0, -1), land, 0.005);
+    assert_close(find_red(&s, 0, -5), land, 0.005);
+    assert_close(find_red(&s, 0, -40), sea, 0.005);
+    assert_close(find_red(&s, 0, -60), land, 0.005);
+    assert_close(find_red(&s, 30, 50), land, 0.005);
+    surface_finish(&s);
+    // Without an ocean the picture is all that shows the sea.
+    desc.depth.is_told = false;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &s), TRL_OK);
+    assert_close(find_red(&s, 0, -1), sea, 0.005);
+    surface_finish(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(water_ends_where_mask_and_heights_say),
+        cmocka_unit_test(land_is_not_painted_as_the_sea_beside_it),
+    };
+    return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
+}
