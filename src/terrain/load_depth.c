@@ -7,6 +7,7 @@
 #include "shared/sea.glsl"
 
 #include <math.h>
+#include <string.h>
 
 trl_result load_mask(struct surface *surface, const struct raster *raster,
                      struct terrain_layer *layer)
@@ -142,13 +143,31 @@ static double find_altitude(struct noter *n, uint32_t x, struct step step)
     return p.weight > 0 ? layer_sample_held_linear(n->layer, p.x, p.y) : (double)NAN;
 }
 
+// Whether there is no water in the BLOCK texels from one on, nor beside them, as on most of land.
+enum { BLOCK = 14 };
+static bool is_dry(const struct mask_row *row, uint32_t x)
+{
+    const uint32_t width = row->frame->width;
+    if (x == 0 || x + BLOCK + 1 > width || row->y == 0 || row->y + 1 >= row->frame->height) {
+        return false;
+    }
+    uint64_t any = 0;
+    for (int i = -1; i <= 1; i++) {
+        uint64_t words[2]; // BLOCK and one on either side
+        memcpy(words, row->water + x - 1 + i * (int64_t)width, sizeof words);
+        any |= words[0] | words[1];
+    }
+    return any == 0;
+}
+
 // Texels of the mask take the depth where they are. Codes are interpolated, so land beside the sea
 // takes that of the sea there, and so does what rises out of it.
 static void note_row(const struct mask_row *row, const struct terrain_layer *layer)
 {
     struct noter n = {row, layer, find_same_row(row->frame, &layer->frame, row->y), {.end = 0}};
     for (uint32_t x = 0; x < row->frame->width; x++) {
-        bool is_noted = false;
+        bool is_noted = is_dry(row, x);
+        x += is_noted ? BLOCK - 1 : 0;
         for (int i = 0; i < STEP_COUNT && !is_noted; i++) {
             if (is_water(row, x, STEPS[i])) {
                 is_noted = note_altitude(find_altitude(&n, x, STEPS[i]), row->codes + x);
