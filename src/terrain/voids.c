@@ -11,13 +11,20 @@ const float VOIDS_FAR = 1e12f; // squared; more than any raster's diagonal
 // A gap is known as coarsely as its rim is far: at 8 texels from it, to 4.
 static const double COARSER_TEXELS = 0.5;
 
-// A plane of numbers of which some are known, with its mip chain: means of what is known.
+struct cell {
+    uint32_t x, y;
+};
+
+// A plane of numbers of which some are known and some are wanted, with its mip chain: means of what
+// is known.
 struct plane {
     const trl_context *ctx;
     int levels;
     uint32_t width[MAX_LEVELS], height[MAX_LEVELS];
-    float *values[MAX_LEVELS];  // owned
-    float *weights[MAX_LEVELS]; // owned; 0 unknown
+    float *values[MAX_LEVELS];   // owned
+    float *weights[MAX_LEVELS];  // owned; 0 unknown
+    uint8_t *wanted[MAX_LEVELS]; // owned
+    struct cell *places;         // owned; those of a level that are smoothed
 };
 
 static void plane_finish(struct plane *p)
@@ -25,7 +32,9 @@ static void plane_finish(struct plane *p)
     for (int i = 0; i < p->levels; i++) {
         mem_free(p->ctx, p->values[i]);
         mem_free(p->ctx, p->weights[i]);
+        mem_free(p->ctx, p->wanted[i]);
     }
+    mem_free(p->ctx, p->places);
 }
 
 static trl_result plane_init(const trl_context *ctx, uint32_t width, uint32_t height,
@@ -38,7 +47,8 @@ static trl_result plane_init(const trl_context *ctx, uint32_t width, uint32_t he
         out->height[i] = height;
         out->values[i] = mem_alloc(ctx, (size_t)width * height, sizeof(float));
         out->weights[i] = mem_alloc(ctx, (size_t)width * height, sizeof(float));
-        if (!out->values[i] || !out->weights[i]) {
+        out->wanted[i] = mem_alloc(ctx, (size_t)width * height, 1);
+        if (!out->values[i] || !out->weights[i] || !out->wanted[i]) {
             out->levels++;
             plane_finish(out);
             return TRL_ERROR_MEMORY;
@@ -59,6 +69,7 @@ static void pull(struct plane *p, int level)
             const size_t to = (size_t)(y / 2) * p->width[level] + x / 2;
             p->values[level][to] += p->weights[level - 1][from] * p->values[level - 1][from];
             p->weights[level][to] += p->weights[level - 1][from];
+            p->wanted[level][to] |= p->wanted[level - 1][from];
         }
     }
     const size_t count = (size_t)p->width[level] * p->height[level];
@@ -86,44 +97,75 @@ static float interpolate(const struct plane *p, int level, float x, float y)
     return a + fy * (b - a);
 }
 
-// Toward the mean of the four neighbours where nothing is known.
-static void relax(struct plane *p, int level)
+// Where a level is smoothed: what is not known and holds something that is wanted. What is known
+// lies around that, so nothing else would reach it.
+static size_t find_places(const struct plane *p, int level)
 {
-    const int64_t width = p->width[level], height = p->height[level];
+    const uint32_t width = p->width[level], height = p->height[level];
+    size_t found = 0;
+    for (uint32_t y = 0; y < height; y++) {
+        const uint8_t *wanted = p->wanted[level] + (size_t)y * width;
+        const float *weights = p->weights[level] + (size_t)y * width;
+        for (uint32_t x = 0; x < width; x++) {
+            if (wanted[x] && !(weights[x] > 0)) {
+                p->places[found++] = (struct cell){x, y};
+            }
+        }
+    }
+    return found;
+}
+
+// Toward the mean of the four neighbours.
+static void relax(struct plane *p, int level, size_t count)
+{
+    const uint32_t width = p->width[level], height = p->height[level];
     float *v = p->values[level];
-    for (int64_t y = 0; y < height; y++) {
-        for (int64_t x = 0; x < width; x++) {
-            const int64_t i = y * width + x;
-            if (!(p->weights[level][i] > 0)) {
-                const float left = v[x > 0 ? i - 1 : i], right = v[x + 1 < width ? i + 1 : i];
-                const float up = v[y > 0 ? i - width : i], down = v[y + 1 < height ? i + width : i];
-                v[i] = 0.25f * (left + right + up + down);
+    for (size_t k = 0; k < count; k++) {
+        const uint32_t x = p->places[k].x, y = p->places[k].y;
+        const size_t i = (size_t)y * width + x;
+        const float left = v[x > 0 ? i - 1 : i], right = v[x + 1 < width ? i + 1 : i];
+        const float up = v[y > 0 ? i - width : i], down = v[y + 1 < height ? i + width : i];
+        v[i] = 0.25f * (left + right + up + down);
+    }
+}
+
+// From the next coarser level where nothing is known; of the finest only what is wanted.
+static void push(struct plane *p, int level)
+{
+    for (uint32_t y = 0; y < p->height[level]; y++) {
+        for (uint32_t x = 0; x < p->width[level]; x++) {
+            const size_t i = (size_t)y * p->width[level] + x;
+            if (!(p->weights[level][i] > 0) && (level > 0 || p->wanted[level][i])) {
+                p->values[level][i] =
+                    interpolate(p, level + 1, 0.5f * (float)x - 0.25f, 0.5f * (float)y - 0.25f);
             }
         }
     }
 }
 
-// Fills what is unknown as evenly as what is known allows (nearly the solution of Laplace's
+// Fills what is wanted as evenly as what is known allows (nearly the solution of Laplace's
 // equation: coarse levels give the shape, sweeps on each smooth it).
-static void spread(struct plane *p)
+static trl_result spread(struct plane *p)
 {
+    size_t wanted = 0;
+    for (size_t i = 0; i < (size_t)p->width[0] * p->height[0]; i++) {
+        wanted += p->wanted[0][i];
+    }
+    p->places = mem_alloc(p->ctx, wanted, sizeof *p->places); // coarser levels have fewer
+    if (!p->places) {
+        return TRL_ERROR_MEMORY;
+    }
     for (int level = 1; level < p->levels; level++) {
         pull(p, level);
     }
     for (int level = p->levels - 2; level >= 0; level--) {
-        for (uint32_t y = 0; y < p->height[level]; y++) {
-            for (uint32_t x = 0; x < p->width[level]; x++) {
-                const size_t i = (size_t)y * p->width[level] + x;
-                if (!(p->weights[level][i] > 0)) {
-                    p->values[level][i] =
-                        interpolate(p, level + 1, 0.5f * (float)x - 0.25f, 0.5f * (float)y - 0.25f);
-                }
-            }
-        }
+        push(p, level);
+        const size_t count = find_places(p, level);
         for (int i = 0; i < (level == 0 ? SWEEPS : COARSE_SWEEPS); i++) {
-            relax(p, level);
+            relax(p, level, count);
         }
     }
+    return TRL_OK;
 }
 
 // One line of squared distances, in place: the lower envelope of parabolas on each of its places
@@ -221,6 +263,7 @@ static void measure_rim(const struct layer_fill *below, const struct terrain_lay
 #pragma omp parallel for schedule(dynamic, 4096)
     for (int64_t i = 0; i < count; i++) {
         gaps->distance[i] = gaps->voids[i] ? VOIDS_FAR : 0;
+        gaps->difference.wanted[0][i] = gaps->voids[i];
         if (!gaps->voids[i] && has_void_beside(gaps->voids, f, (size_t)i)) {
             const double height = layer_texel(layer, i % f->width, i / f->width);
             gaps->difference.values[0][i] = (float)(height - height_below(below, f, (size_t)i));
@@ -243,11 +286,13 @@ static trl_result fill_gaps(const struct layer_fill *below, struct gaps *gaps,
         return result;
     }
     measure_rim(below, layer, gaps);
-    spread(&gaps->difference);
-    result = voids_measure(layer->ctx, f, gaps->distance);
+    result = spread(&gaps->difference);
+    if (result == TRL_OK) {
+        result = voids_measure(layer->ctx, f, gaps->distance);
+    }
     const double feather = fmax(f->feather / f->texel_height, 1);
 #pragma omp parallel for schedule(dynamic, 4096)
-    for (int64_t i = 0; i < count; i++) {
+    for (int64_t i = 0; i < (result == TRL_OK ? count : 0); i++) {
         const double away = (double)gaps->distance[i] / feather;
         if (gaps->voids[i]) {
             const double left = (1 - smooth_part(away)) * (double)gaps->difference.values[0][i];
@@ -301,7 +346,7 @@ static trl_result spread_channel(const trl_context *ctx, const struct layer_fram
                                  uint8_t *rgba)
 {
     struct plane plane;
-    const trl_result result = plane_init(ctx, f->width, f->height, &plane);
+    trl_result result = plane_init(ctx, f->width, f->height, &plane);
     if (result != TRL_OK) {
         return result;
     }
@@ -309,13 +354,14 @@ static trl_result spread_channel(const trl_context *ctx, const struct layer_fram
     for (size_t i = 0; i < count; i++) {
         plane.values[0][i] = rgba[4 * i + (size_t)channel];
         plane.weights[0][i] = rgba[4 * i + 3] > 0 ? 1 : 0;
+        plane.wanted[0][i] = rgba[4 * i + 3] == 0;
     }
-    spread(&plane);
-    for (size_t i = 0; i < count; i++) {
+    result = spread(&plane);
+    for (size_t i = 0; i < count && result == TRL_OK; i++) {
         rgba[4 * i + (size_t)channel] = (uint8_t)lrintf(plane.values[0][i]);
     }
     plane_finish(&plane);
-    return TRL_OK;
+    return result;
 }
 
 trl_result voids_spread_colours(const trl_context *ctx, const struct layer_frame *f, uint8_t *rgba)
