@@ -2,17 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "terrain/noise.h"
 
-#include "shared/spline.glsl"
+#include "terrain/noise_parts.h"
 
 #include <math.h>
-#include <string.h>
 
-// Contrast of ridges and valleys (relief_add); size of gullies relative to that of noise.
+// Contrast of ridges and valleys (relief_add).
 static const double CONTRAST = 2.5;
-static const double GULLIES = 0.35;
-// Gullies are of so many octaves.
-// How much less folded the ground may be within reach of where it was looked at.
-static const double RIDGED_SLACK = 0.3;
 static const double SMALLEST_SLOPE_M = 15;
 // What waves longer than mountains gain, up to so many times their length: ranges. The map has what
 // is longer.
@@ -20,6 +15,7 @@ static const double LONG_HURST = 0.2;
 static const double LONGEST_RANGE = 4;
 // What those shorter than gullies lose.
 static const double FINE_HURST = 0.25;
+// Gullies are of so many octaves.
 enum { GULLY_OCTAVES = 5 };
 
 // Three orientations of the lattice: none of its planes lies along the planet's axes, or along
@@ -81,135 +77,9 @@ static void turn_lattices(struct terrain_noise *noise)
     }
 }
 
-static size_t texel_index(const struct noise_map *map, int64_t x, int64_t y)
-{
-    const int64_t width = map->width, height = map->height;
-    if (y < 0 || y >= height) {
-        y = y < 0 ? -1 - y : 2 * height - 1 - y;
-        x += width / 2;
-    }
-    x = ((x % width) + width) % width;
-    return (size_t)(y * width + x);
-}
-
-static void halve(const struct noise_map *from, struct noise_map *to)
-{
-    for (uint32_t i = 0; i < to->width * to->height; i++) {
-        const uint32_t x = 2 * (i % to->width), y = 2 * (i / to->width);
-        float sum[4] = {0};
-        for (uint32_t k = 0; k < 4; k++) {
-            const struct noise_texel *t = &from->texels[(y + k / 2) * from->width + x + k % 2];
-            sum[0] += t->height_m;
-            sum[1] += t->amplitude_m;
-            sum[2] += t->ridged;
-            sum[3] += t->climate;
-        }
-        to->texels[i] = (struct noise_texel){sum[0] / 4, sum[1] / 4, sum[2] / 4, sum[3] / 4};
-    }
-}
-
-// Mean over as many columns as a texel is narrower than high: all of them in the last two rows,
-// which are what the spline sees at the pole, so that it has one height and is level.
-static void level_row(const struct noise_map *map, uint32_t y, struct noise_texel *copy)
-{
-    const double latitude = SHARED_PI * (0.5 - (y + 0.5) / map->height);
-    const double columns = map->width / (2.0 * map->height * cos(latitude));
-    const int64_t width = map->width;
-    const int64_t half = columns >= (double)width / 10 ? width / 2 : (int64_t)(columns / 2);
-    struct noise_texel *row = map->texels + (size_t)y * map->width;
-    memcpy(copy, row, map->width * sizeof *copy);
-    for (int64_t x = 0; x < width; x++) {
-        double sum[4] = {0};
-        for (int64_t i = x - half; i <= x + half; i++) {
-            const struct noise_texel *t = &copy[(i + width) % width];
-            sum[0] += (double)t->height_m;
-            sum[1] += (double)t->amplitude_m;
-            sum[2] += (double)t->ridged;
-            sum[3] += (double)t->climate;
-        }
-        const double n = (double)(2 * half + 1);
-        row[x] = (struct noise_texel){(float)(sum[0] / n), (float)(sum[1] / n), (float)(sum[2] / n),
-                                      (float)(sum[3] / n)};
-    }
-}
-
-// From 3.6 degrees of the poles, where a texel is 16 times as high as wide.
-static trl_result level_poles(const trl_context *ctx, const struct noise_map *map)
-{
-    struct noise_texel *copy = mem_alloc(ctx, map->width, sizeof *copy);
-    const uint32_t rows = map->height / 50;
-    for (uint32_t y = 0; copy && y < rows; y++) {
-        level_row(map, y, copy);
-        level_row(map, map->height - 1 - y, copy);
-    }
-    mem_free(ctx, copy);
-    return copy ? TRL_OK : TRL_ERROR_MEMORY;
-}
-
-static trl_result upload(struct gpu *gpu, struct terrain_noise *noise)
-{
-    struct gpu_texture_desc desc = gpu_texture_desc_default();
-    desc.label = "noise map";
-    desc.format = GPU_FORMAT_RGBA32F;
-    desc.width = noise->map.width;
-    desc.height = noise->map.height;
-    desc.filter = GPU_FILTER_NEAREST;
-    desc.levels = 0;
-    desc.data = noise->map.texels;
-    trl_result result = gpu_texture_init(gpu, &desc, &noise->texture);
-    struct noise_map levels[2] = {noise->map};
-    struct noise_texel *owned[2];
-    const size_t quarter = (size_t)noise->map.width * noise->map.height / 4;
-    owned[0] = mem_alloc(gpu->ctx, quarter, sizeof **owned);
-    owned[1] = mem_alloc(gpu->ctx, quarter, sizeof **owned);
-    result = owned[0] && owned[1] ? result : TRL_ERROR_MEMORY;
-    for (uint32_t i = 1; i < noise->texture.levels && result == TRL_OK; i++) {
-        struct noise_map *to = &levels[i % 2];
-        const struct noise_map *from = &levels[(i + 1) % 2];
-        *to = (struct noise_map){from->width / 2, from->height / 2, owned[i % 2]};
-        if (to->height == 0) {
-            *to = (struct noise_map){1, 1, owned[i % 2]};
-            to->texels[0] = from->texels[0];
-        } else {
-            halve(from, to);
-        }
-        const struct gpu_region all = gpu_texture_region(&noise->texture, i);
-        result = gpu_texture_upload(&noise->texture, &all, to->texels);
-    }
-    mem_free(gpu->ctx, owned[0]);
-    mem_free(gpu->ctx, owned[1]);
-    return result;
-}
-
 static float amplitude_of(const struct noise_texel *t)
 {
     return t->amplitude_m;
-}
-
-static float height_of(const struct noise_texel *t)
-{
-    return t->height_m;
-}
-
-// The spline's slope is at most the steepest difference of texels along each direction, and both
-// together root 2 of it. Rows near poles are level.
-static double find_steepest(const struct terrain_noise *noise,
-                            float (*value)(const struct noise_texel *))
-{
-    const struct noise_map *map = &noise->map;
-    double most = 0;
-    for (uint32_t y = 0; y + 1 < map->height; y++) {
-        const double cosine = cos(SHARED_PI * (0.5 - (y + 0.5) / map->height));
-        const double narrow = fmax(cosine * 2 * map->height / map->width, 0.05);
-        for (uint32_t x = 0; x < map->width; x++) {
-            const size_t i = (size_t)y * map->width + x;
-            const size_t right = x + 1 < map->width ? i + 1 : i + 1 - map->width;
-            const double here = (double)value(&map->texels[i]);
-            most = fmax(most, fabs((double)value(&map->texels[i + map->width]) - here));
-            most = fmax(most, fabs((double)value(&map->texels[right]) - here) / narrow);
-        }
-    }
-    return sqrt(2) * most / (SHARED_PI * noise->radius_m / map->height);
 }
 
 trl_result noise_init(struct gpu *gpu, const struct noise_desc *desc, struct noise_map *map,
@@ -220,10 +90,10 @@ trl_result noise_init(struct gpu *gpu, const struct noise_desc *desc, struct noi
     *map = (struct noise_map){0};
     place_octaves(out);
     turn_lattices(out);
-    trl_result result = level_poles(out->ctx, &out->map);
-    out->steepest_spread = find_steepest(out, amplitude_of);
+    trl_result result = noise_map_level_poles(out->ctx, &out->map);
+    out->steepest_spread = noise_map_find_steepest(out, amplitude_of);
     if (result == TRL_OK && gpu) {
-        result = upload(gpu, out);
+        result = noise_map_upload(gpu, out);
     }
     if (result != TRL_OK) {
         noise_finish(out);
@@ -240,11 +110,6 @@ void noise_finish(struct terrain_noise *noise)
     *noise = (struct terrain_noise){0};
 }
 
-double noise_find_steepest(const struct terrain_noise *noise)
-{
-    return find_steepest(noise, height_of);
-}
-
 bool noise_is_there(const struct terrain_noise *noise)
 {
     return noise->map.texels != NULL;
@@ -259,48 +124,6 @@ bool noise_is_seen(const struct terrain_noise *noise, double footprint_m)
 {
     // relief_seen: from two footprints on.
     return noise_is_there(noise) && noise->ends[2] > 0 && footprint_m < noise->wave_m[0] / 2;
-}
-
-struct noise_ground noise_ground_at(const struct terrain_noise *noise, struct vec3 up)
-{
-    const struct noise_map *map = &noise->map;
-    const double flat = hypot(up.x, up.y);
-    const double per_radian[2] = {map->width / (2 * SHARED_PI), map->height / SHARED_PI};
-    const double x = (atan2(up.y, up.x) + SHARED_PI) * per_radian[0] - 0.5;
-    const double y = (SHARED_PI / 2 - atan2(up.z, flat)) * per_radian[1] - 0.5;
-    const int64_t column = (int64_t)floor(x + 0.5), row = (int64_t)floor(y + 0.5);
-    const double fx = x - (double)column, fy = y - (double)row;
-    double rows[3][4], slopes[3][2];
-    for (int j = 0; j < 3; j++) {
-        const struct noise_texel *t[3];
-        for (int i = 0; i < 3; i++) {
-            t[i] = &map->texels[texel_index(map, column - 1 + i, row - 1 + j)];
-        }
-#define BLEND(blend, part) blend(fx, (double)t[0]->part, (double)t[1]->part, (double)t[2]->part)
-        rows[j][0] = BLEND(spline_blend, height_m);
-        rows[j][1] = BLEND(spline_blend, amplitude_m);
-        rows[j][2] = BLEND(spline_blend, ridged);
-        rows[j][3] = BLEND(spline_blend, climate);
-        slopes[j][0] = BLEND(spline_slope, height_m);
-        slopes[j][1] = BLEND(spline_slope, amplitude_m);
-#undef BLEND
-    }
-    double blended[4];
-    struct vec3 slope[2];
-    const struct vec3 east = {-up.y / fmax(flat, 1e-12), up.x / fmax(flat, 1e-12), 0};
-    const struct vec3 north = vec3_cross(up, east);
-    for (int c = 0; c < 4; c++) {
-        blended[c] = spline_blend(fy, rows[0][c], rows[1][c], rows[2][c]);
-    }
-    for (int c = 0; c < 2; c++) {
-        const double along = spline_blend(fy, slopes[0][c], slopes[1][c], slopes[2][c]) *
-                             per_radian[0] / (noise->radius_m * fmax(flat, 1e-4));
-        const double south =
-            spline_slope(fy, rows[0][c], rows[1][c], rows[2][c]) * per_radian[1] / noise->radius_m;
-        slope[c] = vec3_sub(vec3_scale(east, along), vec3_scale(north, south));
-    }
-    return (struct noise_ground){blended[0], blended[1], blended[2],
-                                 blended[3], slope[0],   slope[1]};
 }
 
 // Of a point in m from the planet's centre.
@@ -368,7 +191,7 @@ static Relief add_gullies(const struct terrain_noise *noise, const struct noise_
         noise_stripes(find_place(noise, i, vec3_scale(place->up, noise->radius_m)),
                       vec3_dot(rows[0], along), vec3_dot(rows[1], along), vec3_dot(rows[2], along));
     const double log2_wave = noise->log2_wave[i];
-    const double size = place->ground.amplitude_m * noise->size[i] * GULLIES *
+    const double size = place->ground.amplitude_m * noise->size[i] * NOISE_GULLIES *
                         relief_seen(log2_wave, place->log2_footprint) *
                         relief_lacking(log2_wave, place->log2_texel) * relief_cutting(slope2);
     return relief_cut(r, turn_back(noise, i, n), size);
@@ -439,98 +262,6 @@ struct vec3 noise_rock_normal(const struct terrain_noise *noise, const struct no
     return (struct vec3){r.x, r.y, r.z};
 }
 
-struct noise_reach noise_find_reach(const struct terrain_noise *noise, double amplitude_m,
-                                    double ridged)
-{
-    double noises = 0, gullies = 0;
-    for (int i = 0; i < noise->ends[2]; i++) {
-        const bool is_gully = i >= noise->ends[0] && i < noise->ends[1];
-        *(is_gully ? &gullies : &noises) += noise->size[i];
-    }
-    // relief_fold: from 1 and -1 of plain noise to 0.23 and -1.33 of ridges.
-    const double weight = RELIEF_WEIGHT_BOUND;
-    return (struct noise_reach){
-        -amplitude_m * (noises * weight * (1 + 0.35 * ridged) + gullies * GULLIES),
-        amplitude_m * (noises * weight * (1 - 0.77 * ridged) + gullies * GULLIES)};
-}
-
-// Slopes per wavelength of octaves of size 1. Of a million random places one octave alone is never
-// steeper than 13, ten together than 30: one is let be the steepest, and the others a third of it.
-// Gullies are steeper about their forks only, where they are no higher than elsewhere.
-static const double STEEPEST_NOISE = 13;
-static const double NEXT_STEEPEST = 4;
-static const double STEEPEST_GULLY = 20;
-
-// The least, the given and the largest of what octaves are multiplied by, within a reach.
-struct noise_range {
-    double least, here, most;
-};
-
-static struct noise_range find_amplitudes(const struct terrain_noise *noise,
-                                          const struct noise_place *place,
-                                          const struct noise_around *around)
-{
-    const struct noise_ground *g = &place->ground;
-    const double full = noise->desc.full_height_m;
-    const double spread = noise->steepest_spread * around->reach_m;
-    const double rise = around->steepest * around->reach_m;
-    const double height = fabs(g->height_m);
-    return (struct noise_range){fmax(g->amplitude_m - spread, 0) *
-                                    relief_fullness(fmax(height - rise, 0), full),
-                                g->amplitude_m * relief_fullness(height, full),
-                                (g->amplitude_m + spread) * relief_fullness(height + rise, full)};
-}
-
-// Of an octave, with what data leave of it; `texels` are what they may resolve (log2).
-static struct noise_range find_sizes(const struct terrain_noise *noise, int octave,
-                                     const struct noise_range *amplitudes, const double texels[3])
-{
-    const double size = noise->size[octave], wave = noise->log2_wave[octave];
-    return (struct noise_range){amplitudes->least * size * relief_lacking(wave, texels[0]),
-                                amplitudes->here * size * relief_lacking(wave, texels[1]),
-                                amplitudes->most * size * relief_lacking(wave, texels[2])};
-}
-
-struct noise_rise noise_find_rise(const struct terrain_noise *noise,
-                                  const struct noise_place *place,
-                                  const struct noise_around *around)
-{
-    // relief_fold: between -1.35 and 1 of plain noise, 0.23 of ridges.
-    const double ridged = fmax(place->ground.ridged - RIDGED_SLACK, 0);
-    const double up = RELIEF_WEIGHT_BOUND * (1 - 0.77 * ridged);
-    const double any = RELIEF_WEIGHT_BOUND * RELIEF_VALUE_BOUND;
-    const struct noise_range amplitudes = find_amplitudes(noise, place, around);
-    const double texels[3] = {around->log2_texel[0], place->log2_texel, around->log2_texel[1]};
-    struct noise_rise rise = {0, 0, 0};
-    bool is_long = true;
-    double steepest = 0;
-    for (int i = 0; i < noise->ends[2]; i++) {
-        const bool is_gully = i >= noise->ends[0] && i < noise->ends[1];
-        const struct noise_range size = find_sizes(noise, i, &amplitudes, texels);
-        const double most = size.most * (is_gully ? GULLIES : up);
-        const double slope = size.most * (is_gully ? GULLIES * STEEPEST_GULLY : STEEPEST_NOISE);
-        const double change = slope * around->reach_m / noise->wave_m[i];
-        is_long = is_long && (change < most || !(most > 0));
-        rise.octaves += is_long;
-        rise.most_m += most;
-        const double part = is_gully ? 1 : NEXT_STEEPEST / STEEPEST_NOISE;
-        rise.rise_m += is_long ? part * change : most;
-        steepest = is_long && !is_gully ? fmax(steepest, change) : steepest;
-        // What is there grows, or sinks, with what it is multiplied by.
-        const double grown = fmax(size.most - size.here, size.here - size.least);
-        rise.rise_m += is_long ? (is_gully ? GULLIES : any) * grown : 0;
-    }
-    rise.rise_m += steepest * (1 - NEXT_STEEPEST / STEEPEST_NOISE);
-    return rise;
-}
-
-double noise_find_most(const struct terrain_noise *noise, const struct noise_ground *ground,
-                       double reach_m)
-{
-    const double amplitude = ground->amplitude_m + noise->steepest_spread * reach_m;
-    return noise_find_reach(noise, amplitude, fmax(ground->ridged - RIDGED_SLACK, 0)).up_m;
-}
-
 static void bind_map(const struct terrain_noise *noise, const struct anchor *anchor,
                      struct gpu_program *program)
 {
@@ -590,7 +321,7 @@ void noise_bind(const struct terrain_noise *noise, const struct anchor *anchor,
     }
     const struct noise_desc *desc = &noise->desc;
     const int32_t ends[4] = {noise->ends[0], noise->ends[1], noise->ends[2], first_of_rock(noise)};
-    const float form[4] = {(float)CONTRAST, (float)GULLIES, (float)desc->full_height_m,
+    const float form[4] = {(float)CONTRAST, (float)NOISE_GULLIES, (float)desc->full_height_m,
                            desc->has_sea ? 0.0f : -1e9f};
     const float more[4] = {(float)desc->level_roughness,
                            (float)log2(SHARED_PI * noise->radius_m / noise->map.height),
