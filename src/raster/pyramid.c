@@ -7,7 +7,13 @@
 
 // Longest side of the finest level that is held whole. Where a file has no overviews a tile of the
 // level below it averages (PYRAMID_TILE * 2^level)^2 pixels: the larger, the fewer.
-enum { BASE_SIDE = 1024, BASE_SIDE_WITHOUT_OVERVIEWS = 4096, CHEAP_SIDE = 8192, STRIP_ROWS = 32 };
+enum {
+    BASE_SIDE = 1024,
+    BASE_SIDE_WITHOUT_OVERVIEWS = 4096,
+    CHEAP_SIDE = 8192,
+    CHEAP_PIXELS = CHEAP_SIDE * CHEAP_SIDE / 2,
+    STRIP_ROWS = 32
+};
 
 // Files without overviews are read whole at each start; of so many pixels that is a quarter of an
 // hour at the 40 million a second that GDAL averages of a plain file.
@@ -56,7 +62,9 @@ static void make_levels(struct pyramid *p)
 // Whether coarse tiles can be read without going through the whole file.
 static bool has_cheap_overview(const struct pyramid *p)
 {
-    bool is_cheap = longest_side(&p->levels[0]) <= CHEAP_SIDE;
+    // A long strip has few pixels, however long.
+    bool is_cheap = longest_side(&p->levels[0]) <= CHEAP_SIDE ||
+                    (double)p->raster.width * p->raster.height <= CHEAP_PIXELS;
     for (uint32_t i = 1; i < p->level_count && !is_cheap; i++) {
         is_cheap = longest_side(&p->levels[i]) <= CHEAP_SIDE &&
                    raster_has_overview(&p->raster, p->levels[i].width, p->levels[i].height);

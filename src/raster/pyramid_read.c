@@ -104,7 +104,7 @@ static struct runs find_rows(const struct pyramid *p, const struct pyramid_windo
     return rows;
 }
 
-// Where columns wrap, a level that is read from the file is wider than a window: two runs at most.
+// Where columns wrap, a level is no narrower than a window that comes here: two runs at most.
 static struct runs find_columns(const struct pyramid *p, const struct pyramid_window *w, int64_t x)
 {
     struct runs columns = {0};
@@ -224,6 +224,25 @@ static void cut_from_whole(const struct pyramid *p, const struct pyramid_window 
     }
 }
 
+// Of a level that goes around the planet in fewer columns than the window has: all of them once,
+// then as often as needed.
+static trl_result read_narrow(struct pyramid_reader *reader, const struct pyramid_window *w,
+                              const struct window_texels *out)
+{
+    const uint32_t width = reader->pyramid->levels[w->level].width;
+    const struct pyramid_window once = {w->level, 0, w->y, width, w->height};
+    uint8_t *bytes = mem_alloc(reader->raster.ctx, (size_t)width * w->height, out->texel);
+    const struct window_texels columns = {bytes, out->texel, width, w->height};
+    const trl_result result = bytes ? read_from_file(reader, &once, &columns) : TRL_ERROR_MEMORY;
+    for (size_t i = 0; i < (size_t)w->width * w->height && result == TRL_OK; i++) {
+        const int64_t x = (w->x + (int64_t)(i % w->width)) % width;
+        const size_t from = i / w->width * width + (size_t)(x < 0 ? x + width : x);
+        memcpy(out->bytes + i * out->texel, bytes + from * out->texel, out->texel);
+    }
+    mem_free(reader->raster.ctx, bytes);
+    return result;
+}
+
 trl_result pyramid_read_window(struct pyramid_reader *reader, const struct pyramid_window *w,
                                void *texels)
 {
@@ -233,7 +252,9 @@ trl_result pyramid_read_window(struct pyramid_reader *reader, const struct pyram
         cut_from_whole(reader->pyramid, w, &out);
         return TRL_OK;
     }
-    return read_from_file(reader, w, &out);
+    const bool is_narrow = reader->pyramid->levels[w->level].width < w->width;
+    return reader->pyramid->wraps && is_narrow ? read_narrow(reader, w, &out)
+                                               : read_from_file(reader, w, &out);
 }
 
 struct pyramid_window pyramid_window_of(const struct pyramid_tile *tile)

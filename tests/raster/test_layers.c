@@ -402,6 +402,46 @@ static void what_is_no_number_is_a_gap(void **state)
     }
 }
 
+static double by_row(int x, int y)
+{
+    (void)x;
+    return y;
+}
+
+static double by_column(int x, int y)
+{
+    (void)y;
+    return x;
+}
+
+// Around the planet, in two columns or two rows: tiles are wider than they.
+static void strips_are_drawn(void **state)
+{
+    struct fixture *f = *state;
+    for (int i = 0; i < 4; i++) {
+        struct recipe r = GLOBE;
+        const bool is_high = i % 2 == 0;
+        r.width = is_high ? 2 : 20000;
+        r.height = is_high ? 20000 : 2;
+        r.transform[1] = 360.0 / r.width;
+        r.transform[5] = -180.0 / r.height;
+        r.value = is_high ? by_row : by_column;
+        char path[256];
+        snprintf(path, sizeof path, "%s", make_file(f, &r));
+        const struct surface_layer_desc layer = {
+            .kind = SURFACE_ELEVATION, .path = path, .scale = 1};
+        struct surface s;
+        make_surface(f, &layer, i < 2 ? WHOLE : TILED, &s);
+        // A row that reaches to the pole is levelled out over as many columns as it is high.
+        const double there = altitude(&s, 45, 45);
+        assert_true(is_high ? fabs(there - 20000 * 45 / 180.0 + 0.5) < 1
+                            : there >= 0 && there < 20000);
+        assert_int_equal(f->errors + f->warnings, 0);
+        surface_finish(&s);
+        assert_int_equal(f->errors + f->warnings, 0);
+    }
+}
+
 static void maps_of_other_bodies_are_told_and_drawn(void **state)
 {
     struct fixture *f = *state;
@@ -459,6 +499,7 @@ int main(void)
         TEST(units_that_nobody_knows_are_told),
         TEST(wide_numbers_are_heights),
         TEST(what_is_no_number_is_a_gap),
+        TEST(strips_are_drawn),
         TEST(maps_of_other_bodies_are_told_and_drawn),
         TEST(world_files_place_pictures),
     };
