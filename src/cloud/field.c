@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "cloud/field.h"
 
+#include "raster/remote.h"
 #include "shared/cloud.glsl"
 
+#include <stdio.h>
+#include <unistd.h>
+
 // Finer than the volume is between clouds, a map only moves them: 20 km on Earth.
-enum { MAP_MAX_SIDE = 2048 };
+enum { MAP_MAX_SIDE = 2048, LONGEST_ERROR = 1024 };
 
 static trl_result load_map(const trl_context *ctx, const char *path, struct raster_grid *out)
 {
@@ -16,7 +20,9 @@ static trl_result load_map(const trl_context *ctx, const char *path, struct rast
     }
     if (!raster.is_whole_circle || raster.type != RASTER_UINT8) {
         result = trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                          "%s: a map of clouds must be of 8 bits and go around the planet", path);
+                          "%s: a map of clouds must be of 8 bits (gdal_translate -ot Byte -scale) "
+                          "and go around the planet",
+                          path);
     } else {
         result = raster_grid_load(&raster, MAP_MAX_SIDE, out);
     }
@@ -28,6 +34,36 @@ static trl_result load_map(const trl_context *ctx, const char *path, struct rast
     return result;
 }
 
+static void keep_error(void *user, trl_log_level level, trl_log_item item, const char *message)
+{
+    char *said = user;
+    (void)item;
+    if (level == TRL_LOG_ERROR) {
+        snprintf(said, LONGEST_ERROR, "%s", message);
+    }
+}
+
+// As with layers of the surface: a file that is there and no good is told and left out, one that is
+// missing is an error.
+static trl_result take_map(struct cloud_field *field, const char *path)
+{
+    char said[LONGEST_ERROR] = "";
+    trl_context quiet = *field->ctx;
+    quiet.desc.log = keep_error;
+    quiet.desc.log_user = said;
+    const trl_result result = load_map(&quiet, path, &field->map);
+    field->map.ctx = field->ctx;
+    field->has_map = result == TRL_OK;
+    const bool is_bad = result == TRL_ERROR_INVALID || result == TRL_ERROR_IO;
+    if (is_bad && (remote_is_path(path) || access(path, F_OK) == 0)) {
+        trl_log(field->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER,
+                "clouds.map %s; left out: their cover is the same everywhere", said);
+        return TRL_OK;
+    }
+    return said[0] ? trl_fail(field->ctx, result, TRL_LOG_ITEM_RASTER, "clouds.map %s", said)
+                   : result;
+}
+
 trl_result cloud_field_init(const trl_context *ctx, const struct cloud_desc *desc,
                             double ground_radius_m, struct cloud_field *out)
 {
@@ -36,8 +72,7 @@ trl_result cloud_field_init(const trl_context *ctx, const struct cloud_desc *des
     cloud_field_set_time(out, 0);
     trl_result result = TRL_OK;
     if (desc->map_path) {
-        result = load_map(ctx, desc->map_path, &out->map);
-        out->has_map = result == TRL_OK;
+        result = take_map(out, desc->map_path);
     }
     if (result == TRL_OK) {
         result = cloud_volume_init(ctx, (uint32_t)desc->seed, &out->volume);

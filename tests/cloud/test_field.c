@@ -289,6 +289,45 @@ static void the_wind_carries_a_layer_east(void **state)
     cloud_field_finish(&field);
 }
 
+static void keep_last(void *user, trl_log_level level, trl_log_item item, const char *message)
+{
+    (void)item;
+    if (level <= TRL_LOG_WARN) {
+        snprintf(user, 512, "%d %s", (int)level, message);
+    }
+}
+
+// As a raster of the surface: told with its key, and the planet is drawn.
+static void a_map_that_is_no_good_is_left_out(void **state)
+{
+    const struct fixture *f = *state;
+    char path[128], said[512] = "";
+    trl_context_desc desc = trl_context_desc_default();
+    desc.cache_dir = f->folder;
+    desc.log = keep_last;
+    desc.log_user = said;
+    trl_context *ctx = NULL;
+    assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
+    snprintf(path, sizeof path, "%s/map.tif", f->folder);
+    const struct cloud_desc clouds = {.layer_count = 1, .seed = 1, .map_path = path};
+    struct cloud_field field;
+    assert_int_equal(cloud_field_init(ctx, &clouds, RADIUS_M, &field), TRL_ERROR_IO); // missing
+    assert_non_null(strstr(said, path));
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("no raster", file);
+    fclose(file);
+    assert_int_equal(cloud_field_init(ctx, &clouds, RADIUS_M, &field), TRL_OK);
+    assert_false(field.has_map);
+    assert_int_equal(said[0], '0' + TRL_LOG_WARN);
+    assert_non_null(strstr(said, "clouds.map"));
+    assert_non_null(strstr(said, path));
+    assert_non_null(strstr(said, "left out"));
+    cloud_field_finish(&field);
+    unlink(path);
+    trl_context_destroy(&ctx);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -303,6 +342,7 @@ int main(void)
         cmocka_unit_test(there_is_nothing_outside_of_a_layer_and_without_cover),
         cmocka_unit_test(the_wind_carries_a_layer_east),
         cmocka_unit_test(another_seed_makes_other_clouds),
+        cmocka_unit_test(a_map_that_is_no_good_is_left_out),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
