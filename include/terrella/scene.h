@@ -11,8 +11,13 @@ TRL_BEGIN
 /// Owner: caller. Threads: immutable, const calls from any thread.
 typedef struct trl_scene trl_scene;
 
-/// Whether altitudes of a camera count from the reference sphere or from the ground below it.
-typedef enum trl_altitude_mode { TRL_ALTITUDE_SPHERE, TRL_ALTITUDE_GROUND } trl_altitude_mode;
+/// From where altitudes of a camera count.
+typedef enum trl_altitude_mode {
+    TRL_ALTITUDE_SPHERE, ///< the reference sphere
+    TRL_ALTITUDE_GROUND, ///< the ground below the camera, level water included
+    TRL_ALTITUDE_WAVES   ///< as TRL_ALTITUDE_GROUND, and with the waves of the ocean at the view's
+                         ///< time: an eye on a boat. Where there is no sea it is still raised
+} trl_altitude_mode;
 
 /// Where the star stands: a point of the planet over which it is at the zenith, or as the camera
 /// sees it.

@@ -30,7 +30,8 @@ static trl_result check_range(const trl_context *ctx, const struct range *range)
 static trl_result check_choices(const trl_context *ctx, const trl_view *view)
 {
     TRL_REQUIRE(ctx, view->altitude_mode == TRL_ALTITUDE_SPHERE ||
-                         view->altitude_mode == TRL_ALTITUDE_GROUND);
+                         view->altitude_mode == TRL_ALTITUDE_GROUND ||
+                         view->altitude_mode == TRL_ALTITUDE_WAVES);
     TRL_REQUIRE(ctx, view->sun_mode == TRL_SUN_SUBSOLAR || view->sun_mode == TRL_SUN_LOCAL);
     TRL_REQUIRE(ctx,
                 view->tone_curve == TRL_TONE_FILMIC || view->tone_curve == TRL_TONE_EXPONENTIAL);

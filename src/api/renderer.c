@@ -381,7 +381,7 @@ double trl_renderer_ground_altitude_m(const trl_renderer *renderer, double latit
     if (!renderer || !isfinite(latitude_rad) || !isfinite(longitude_rad)) {
         return 0;
     }
-    return frame_place(&renderer->frame, latitude_rad, longitude_rad).ground_altitude_m;
+    return ground_altitude_m(&renderer->frame.ground, latitude_rad, longitude_rad);
 }
 
 trl_result trl_renderer_resolve(const trl_renderer *renderer, const trl_view *view, trl_view *out)
@@ -396,7 +396,7 @@ trl_result trl_renderer_resolve(const trl_renderer *renderer, const trl_view *vi
     if (result != TRL_OK) {
         return result;
     }
-    const struct camera_place place = frame_place(frame, view->latitude_rad, view->longitude_rad);
+    const struct camera_place place = frame_place(frame, view);
     result = camera_check(renderer->ctx, view, &place);
     if (result == TRL_OK) {
         *out = camera_view_resolve(view, &place);

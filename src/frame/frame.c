@@ -260,14 +260,17 @@ static trl_result fit_targets(struct frame *frame, uint32_t width, uint32_t heig
     return result;
 }
 
-struct camera_place frame_place(const struct frame *frame, double latitude_rad,
-                                double longitude_rad)
+struct camera_place frame_place(const struct frame *frame, const trl_view *view)
 {
-    return (struct camera_place){.radius_m = frame->scene->medium.ground_radius_m,
-                                 .ground_altitude_m =
-                                     ground_altitude_m(&frame->ground, latitude_rad, longitude_rad),
-                                 .bodies = frame->scene->bodies,
-                                 .body_count = frame->scene->body_count};
+    const double latitude_rad = view->latitude_rad, longitude_rad = view->longitude_rad;
+    const bool rides = view->altitude_mode == TRL_ALTITUDE_WAVES;
+    return (struct camera_place){
+        .radius_m = frame->scene->medium.ground_radius_m,
+        .ground_altitude_m = ground_altitude_m(&frame->ground, latitude_rad, longitude_rad),
+        .wave_m =
+            rides ? ground_wave_m(&frame->ground, latitude_rad, longitude_rad, view->time_s) : 0,
+        .bodies = frame->scene->bodies,
+        .body_count = frame->scene->body_count};
 }
 
 static trl_result draw_radiance(struct frame *frame, const struct camera *camera,
@@ -348,7 +351,7 @@ static trl_result develop(struct frame *frame, const struct frame_request *reque
 trl_result frame_draw(struct frame *frame, const struct frame_request *request)
 {
     const trl_view *view = request->view;
-    const struct camera_place place = frame_place(frame, view->latitude_rad, view->longitude_rad);
+    const struct camera_place place = frame_place(frame, view);
     trl_result result = camera_check(frame->ctx, view, &place);
     if (result == TRL_OK) {
         result = gpu_make_current(frame->gpu);

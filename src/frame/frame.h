@@ -94,7 +94,6 @@ TRL_MUST_USE trl_result frame_read_picture(struct frame *frame, uint8_t *rgba);
 TRL_MUST_USE trl_result frame_read_radiance(struct frame *frame, float *rgba);
 
 // What a view stands on.
-struct camera_place frame_place(const struct frame *frame, double latitude_rad,
-                                double longitude_rad);
+struct camera_place frame_place(const struct frame *frame, const trl_view *view);
 
 #endif // FRAME_FRAME_H

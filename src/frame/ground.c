@@ -143,6 +143,9 @@ struct mesher_stats ground_mesher_stats(const struct ground *ground)
     return mesher ? mesher->stats : (struct mesher_stats){0};
 }
 
+// Length of what an eye that rides on waves stands on.
+static const double BOAT_M = 6;
+
 static trl_result make_waves(struct ground *ground, const struct trl_scene *scene)
 {
     if (!scene->ocean.is_there) {
@@ -150,7 +153,8 @@ static trl_result make_waves(struct ground *ground, const struct trl_scene *scen
     }
     const struct waves_desc desc = {ground->gpu->ctx, &scene->ocean, scene->medium.ground_radius_m,
                                     sea_mean_square_slope(&scene->ocean.waves)};
-    trl_result result = waves_init(&desc, &ground->waves);
+    ground->stand = mem_alloc(ground->gpu->ctx, 1, sizeof *ground->stand);
+    trl_result result = ground->stand ? waves_init(&desc, &ground->waves) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
         result = facets_init(ground->gpu, &ground->waves, &ground->facets);
     }
@@ -230,6 +234,9 @@ void ground_finish(struct ground *ground)
     finish_buffers(ground);
     sea_mesh_finish(&ground->sea_mesh);
     facets_finish(&ground->facets);
+    if (ground->gpu) {
+        mem_free(ground->gpu->ctx, ground->stand);
+    }
     waves_finish(&ground->waves);
     terrain_sky_view_finish(&ground->sky_view);
     terrain_compose_finish(&ground->compose);
@@ -420,6 +427,17 @@ struct sky_shadow ground_shadow(const struct ground *ground)
 double ground_altitude_m(const struct ground *ground, double latitude_rad, double longitude_rad)
 {
     return surface_altitude(&ground->surface, vec3_from_lat_lon(latitude_rad, longitude_rad));
+}
+
+double ground_wave_m(const struct ground *ground, double latitude_rad, double longitude_rad,
+                     double time_s)
+{
+    if (!ground->has_waves) {
+        return 0;
+    }
+    waves_view_make(&ground->waves, vec3_from_lat_lon(latitude_rad, longitude_rad), time_s,
+                    ground->stand);
+    return waves_stand_find(ground->stand, ground->waves.radius_m, BOAT_M, 1).height_m;
 }
 
 double ground_highest_m(const struct ground *ground)

@@ -42,6 +42,7 @@ struct ground {
     struct terrain_shadow shadow;
     struct terrain_compose compose;
     struct waves waves;
+    struct waves_view *stand; // owned; room for ground_wave_m
     struct facets facets;
     struct sea_mesh sea_mesh; // the positions of the last frame are its own where it is seen
     bool has_waves;
@@ -111,6 +112,9 @@ struct sky_surface ground_surface(const struct ground *ground);
 struct sky_shadow ground_shadow(const struct ground *ground);
 
 double ground_altitude_m(const struct ground *ground, double latitude_rad, double longitude_rad);
+// Of the sea above its level, as a boat feels it; 0 without waves.
+double ground_wave_m(const struct ground *ground, double latitude_rad, double longitude_rad,
+                     double time_s);
 double ground_highest_m(const struct ground *ground);
 
 #endif // FRAME_GROUND_H

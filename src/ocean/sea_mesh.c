@@ -247,24 +247,13 @@ static trl_result draw_joined(struct sea_mesh *m, const struct sea_mesh_inputs *
     return result;
 }
 
-// A long wave moves all water near the eye by metres to one side; by fixed-point iteration, which
-// converges as no crest is a loop.
 static void centre_rings(struct sea_mesh *m)
 {
-    enum { ROUNDS = 6 };
-    const double radius_m = m->surface->radius_m;
     const double shown = sea_grid_shown(m->plan.grid, m->plan.eye_height_m);
-    for (int round = 0; round < ROUNDS; round++) {
-        const GerstnerPlace p = gerstner_place(m->plan.east_m, m->plan.north_m, radius_m);
-        GerstnerSum sum = gerstner_level();
-        for (uint32_t i = 0; i < m->waves->view->count; i++) {
-            const GerstnerWave w = waves_view_get(m->waves->view, i);
-            const Angle angle = gerstner_small_angle(gerstner_turn(w, p));
-            sum = gerstner_add(sum, w, gerstner_ripple(w, p, radius_m, angle), shown);
-        }
-        m->plan.east_m = -sum.x;
-        m->plan.north_m = -sum.y;
-    }
+    const struct waves_stand stand =
+        waves_stand_find(m->waves->view, m->surface->radius_m, 0, shown);
+    m->plan.east_m = stand.east_m;
+    m->plan.north_m = stand.north_m;
 }
 
 trl_result sea_mesh_draw(struct sea_mesh *m, const struct sea_mesh_inputs *in)

@@ -289,6 +289,25 @@ void waves_view_make(const struct waves *waves, struct vec3 place, double time_s
     }
 }
 
+struct waves_stand waves_stand_find(const struct waves_view *view, double radius_m, double side_m,
+                                    double part)
+{
+    enum { ROUNDS = 6 }; // by fixed-point iteration, which converges since no crest is a loop
+    struct waves_stand stand = {0, 0, 0};
+    for (int round = 0; round < ROUNDS; round++) {
+        const GerstnerPlace p = gerstner_place(stand.east_m, stand.north_m, radius_m);
+        GerstnerSum sum = gerstner_level();
+        for (uint32_t i = 0; i < view->count; i++) {
+            const GerstnerWave w = waves_view_get(view, i);
+            const Angle angle = gerstner_small_angle(gerstner_turn(w, p));
+            const double weight = part * gerstner_weight(w.wavenumber * side_m, 0);
+            sum = gerstner_add(sum, w, gerstner_ripple(w, p, radius_m, angle), weight);
+        }
+        stand = (struct waves_stand){-sum.x, -sum.y, sum.z};
+    }
+    return stand;
+}
+
 void waves_local_from_planet(struct vec3 place, float matrix[9])
 {
     const struct axes axes = find_axes(place);

@@ -63,6 +63,15 @@ struct waves_view {
 void waves_view_make(const struct waves *waves, struct vec3 place, double time_s,
                      struct waves_view *out);
 
+// Where the sea stands below the anchor: which place waves move there (a long one moves all water
+// near it by metres), and how high. `side_m`: of what floats there, and follows no shorter waves.
+// `part`: of all displacement.
+struct waves_stand {
+    double east_m, north_m, height_m;
+};
+struct waves_stand waves_stand_find(const struct waves_view *view, double radius_m, double side_m,
+                                    double part);
+
 // Column-major mat3 from planet axes to those of the anchor.
 void waves_local_from_planet(struct vec3 place, float matrix[9]);
 

@@ -39,7 +39,8 @@ static struct vec3 find_sun(const trl_view *view, const struct local_frame *fram
 
 double camera_altitude_m(const trl_view *view, const struct camera_place *place)
 {
-    const double base_m = view->altitude_mode == TRL_ALTITUDE_GROUND ? place->ground_altitude_m : 0;
+    double base_m = view->altitude_mode == TRL_ALTITUDE_SPHERE ? 0 : place->ground_altitude_m;
+    base_m += view->altitude_mode == TRL_ALTITUDE_WAVES ? place->wave_m : 0;
     return fmax(base_m + view->altitude_m, place->ground_altitude_m + CAMERA_MIN_HEIGHT_M);
 }
 

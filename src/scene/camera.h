@@ -19,6 +19,7 @@ struct scene_body;
 struct camera_place {
     double radius_m;                 // of the reference sphere
     double ground_altitude_m;        // above the sphere, below the camera
+    double wave_m;                   // of the sea there, above its level; 0 where nobody knows
     const struct scene_body *bodies; // of the scene; NULL when there are none
     size_t body_count;
 };

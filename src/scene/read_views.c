@@ -38,15 +38,17 @@ static trl_result read_altitude(const struct scene_node *camera, trl_view *out)
 {
     const struct scene_node altitude = scene_node_member(camera, "altitude_m");
     const struct scene_node height = scene_node_member(camera, "height_above_ground_m");
-    if (!altitude.value == !height.value) {
-        return scene_node_fail(camera, "must have one of altitude_m and height_above_ground_m");
+    const struct scene_node boat = scene_node_member(camera, "height_above_waves_m");
+    if (!!altitude.value + !!height.value + !!boat.value != 1) {
+        return scene_node_fail(camera, "must have one of altitude_m, height_above_ground_m and "
+                                       "height_above_waves_m");
     }
     if (altitude.value) {
         out->altitude_mode = TRL_ALTITUDE_SPHERE;
         return scene_node_number(&altitude, &distances, &out->altitude_m);
     }
-    out->altitude_mode = TRL_ALTITUDE_GROUND;
-    return scene_node_number(&height, &heights, &out->altitude_m);
+    out->altitude_mode = height.value ? TRL_ALTITUDE_GROUND : TRL_ALTITUDE_WAVES;
+    return scene_node_number(height.value ? &height : &boat, &heights, &out->altitude_m);
 }
 
 static trl_result read_camera(const struct scene_node *node, trl_view *out)
@@ -55,6 +57,7 @@ static trl_result read_camera(const struct scene_node *node, trl_view *out)
                                 "longitude_deg",
                                 "altitude_m",
                                 "height_above_ground_m",
+                                "height_above_waves_m",
                                 "heading_deg",
                                 "pitch_deg",
                                 "roll_deg",

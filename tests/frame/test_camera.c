@@ -55,6 +55,18 @@ static void heading_turns_clockwise_from_north(void **state)
     assert_vec(camera.up, 1, 0, 0);
 }
 
+static void an_eye_rides_on_waves_where_the_view_says_so(void **state)
+{
+    (void)state;
+    const struct camera_place place = {.radius_m = 6e6, .ground_altitude_m = 10, .wave_m = -2.5};
+    trl_view view = view_at(0, 0);
+    view.altitude_m = 4;
+    view.altitude_mode = TRL_ALTITUDE_WAVES;
+    assert_true(camera_altitude_m(&view, &place) == 11.5);
+    view.altitude_mode = TRL_ALTITUDE_GROUND;
+    assert_true(camera_altitude_m(&view, &place) == 14);
+}
+
 static void pitch_up_is_positive_and_straight_down_is_defined(void **state)
 {
     (void)state;
@@ -282,6 +294,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(heading_zero_looks_north_with_east_at_the_right),
         cmocka_unit_test(heading_turns_clockwise_from_north),
+        cmocka_unit_test(an_eye_rides_on_waves_where_the_view_says_so),
         cmocka_unit_test(pitch_up_is_positive_and_straight_down_is_defined),
         cmocka_unit_test(roll_turns_the_camera_clockwise),
         cmocka_unit_test(axes_are_orthonormal_and_right_handed_anywhere),
