@@ -99,13 +99,13 @@ struct stretch {
 };
 
 static struct stretch stretch_make(const struct mask_row *row, const struct layer_frame *f,
-                                   uint32_t begin)
+                                   uint32_t begin, double y)
 {
     const uint32_t end = begin + STRETCH;
     struct stretch s = {.begin = begin, .end = end};
     if (f->pole != 0 && row->frame->pole == 0) {
-        s.ends[0] = find_place(row, f, begin, row->y);
-        s.ends[1] = find_place(row, f, end, row->y);
+        s.ends[0] = find_place(row, f, begin, y);
+        s.ends[1] = find_place(row, f, end, y);
         s.is_straight = s.ends[0].weight > 0 && s.ends[1].weight > 0;
     }
     return s;
@@ -123,7 +123,7 @@ struct noter {
     const struct mask_row *row;
     const struct terrain_layer *layer;
     int64_t same;
-    struct stretch stretch;
+    struct stretch stretches[3]; // of this row and those beside it
 };
 
 // NaN: the layer is not there.
@@ -133,13 +133,13 @@ static double find_altitude(struct noter *n, uint32_t x, struct step step)
         return layer_texel(n->layer, (int64_t)x + step.x, n->same + step.y);
     }
     const struct layer_frame *f = &n->layer->frame;
-    if (x >= n->stretch.end) {
-        n->stretch = stretch_make(n->row, f, x);
-    }
+    struct stretch *stretch = &n->stretches[1 + step.y];
     const double at_x = (double)x + step.x, at_y = (double)n->row->y + step.y;
-    const struct layer_place p = n->stretch.is_straight && step.y == 0
-                                     ? place_along(&n->stretch, at_x)
-                                     : find_place(n->row, f, at_x, at_y);
+    if (x >= stretch->end) {
+        *stretch = stretch_make(n->row, f, x, at_y);
+    }
+    const struct layer_place p =
+        stretch->is_straight ? place_along(stretch, at_x) : find_place(n->row, f, at_x, at_y);
     return p.weight > 0 ? layer_sample_held_linear(n->layer, p.x, p.y) : (double)NAN;
 }
 
@@ -164,7 +164,7 @@ static bool is_dry(const struct mask_row *row, uint32_t x)
 // takes that of the sea there, and so does what rises out of it.
 static void note_row(const struct mask_row *row, const struct terrain_layer *layer)
 {
-    struct noter n = {row, layer, find_same_row(row->frame, &layer->frame, row->y), {.end = 0}};
+    struct noter n = {row, layer, find_same_row(row->frame, &layer->frame, row->y), {{.end = 0}}};
     for (uint32_t x = 0; x < row->frame->width; x++) {
         bool is_noted = is_dry(row, x);
         x += is_noted ? BLOCK - 1 : 0;
