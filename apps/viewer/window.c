@@ -146,6 +146,7 @@ static bool run_turn(struct viewer *viewer)
     if (is_due) {
         viewer->is_changed = false;
         const double scale = is_moving ? pace_scale(&viewer->pace) : 1.0;
+        viewer->result = trl_renderer_accumulate_clouds(viewer->renderer, is_moving);
         if (!draw_frame(viewer, scale, elapsed_s)) {
             return false;
         }

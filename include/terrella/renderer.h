@@ -257,6 +257,14 @@ typedef struct trl_tile_stats {
 /// @param[out] out  filled
 TRL_API void trl_renderer_tile_stats(const trl_renderer *renderer, trl_tile_stats *out);
 
+/// Lets clouds come together over frames from the next one on: each marches a quarter of their rays
+/// and takes the others from the frame before, as far as the same clouds were seen there. For
+/// flights: a picture then depends on those before it. After a jump of camera, sun or time the next
+/// frame is whole; after four frames without a move it is as if it were. A renderer begins without.
+/// @return TRL_OK; TRL_ERROR_INVALID
+TRL_API TRL_MUST_USE trl_result trl_renderer_accumulate_clouds(trl_renderer *renderer,
+                                                               bool accumulates);
+
 /// Finds the light of the air in another way from the next frame on, which compiles programs when
 /// it is the first of that kind.
 /// @return TRL_OK; TRL_ERROR_INVALID (there is no such way)

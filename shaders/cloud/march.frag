@@ -23,12 +23,14 @@
 #include "sky/spectral/colour.glsl"
 
 uniform vec2 u_picture; // pixels
+uniform vec3 u_grid; // of those rays that are marched: the first, each way; distance between them
 
 #ifdef SURFACE
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
 #endif
 
 layout(location = 0) out vec4 out_clouds;
+layout(location = 1) out float out_distance; // logarithm of the mean one of what is seen, m
 
 const int SLICES = 24; // at most, of a layer along a part of the ray
 const float GROWTH = 0.2;
@@ -85,18 +87,24 @@ Part part_of(Ray ray, int index, float end)
     return part;
 }
 
+// Of the texels that stand for every second pixel.
+ivec2 find_texel()
+{
+    return ivec2(u_grid.z * floor(gl_FragCoord.xy) + u_grid.xy);
+}
+
 // Spreads the steps' beginnings, and the levels that are looked at, over each four pixels, which
 // join.frag takes the mean of: x and y of each are quarters in another order.
 vec2 spread_four()
 {
-    ivec2 at = ivec2(gl_FragCoord.xy) & 1;
+    ivec2 at = find_texel() & 1;
     float rank = float(at.x == at.y ? 2 * at.x : 3 - 2 * at.x);
     return (vec2(rank, mod(2.0 * rank + 1.0, 5.0)) + 0.5) * 0.25;
 }
 
 void main()
 {
-    vec2 pixel = min(2.0 * floor(gl_FragCoord.xy), u_picture - 1.0) + 0.5;
+    vec2 pixel = min(2.0 * vec2(find_texel()), u_picture - 1.0) + 0.5;
     vec2 uv = pixel / u_picture;
     Ray ray = make_pixel_ray(uv);
     float end = 1.0e30;
@@ -123,6 +131,8 @@ void main()
     vec4 bands = vec4(0.0); // of the clouds
     vec3 air = vec3(0.0);   // XYZ of the air before them
     float here = 0.0;
+    float first_m = 0.0;     // where a layer begins
+    float distances_m = 0.0; // of clouds, times what they take
     for (int n = 0; n < 2 * u_cloud_layers; n++) {
         // The nearest part that begins here or beyond.
         Part part;
@@ -138,6 +148,7 @@ void main()
         if (part.from > 0.9e30 || left < OPAQUE) {
             break;
         }
+        first_m = first_m > 0.0 ? first_m : max(part.from, 1.0);
         CloudLayer layer = cloud_layer(part.layer);
         float texel = cloud_texel(layer);
         float near = part.from;
@@ -225,6 +236,7 @@ void main()
                 left -= weight;
             }
             float taken = left_before - left;
+            distances_m += moment;
             for (int once = 0; once < 1; once++) {
                 if (taken <= 0.0) {
                     break;
@@ -245,6 +257,8 @@ void main()
         }
         here = part.to;
     }
+    float empty_m = first_m > 0.0 ? first_m : min(end, 1.0e7);
+    out_distance = log(left < 0.99 ? max(distances_m / (1.0 - left), 1.0) : empty_m);
     // What is left of a cloud that is all but opaque is like the rest.
     float scale = left < OPAQUE ? 1.0 / (1.0 - left) : 1.0;
     left = left < OPAQUE ? 0.0 : left;

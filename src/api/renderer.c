@@ -291,6 +291,15 @@ void trl_renderer_tile_stats(const trl_renderer *renderer, trl_tile_stats *out)
                             .read_s = stats.read_s};
 }
 
+trl_result trl_renderer_accumulate_clouds(trl_renderer *renderer, bool accumulates)
+{
+    if (!renderer) {
+        return TRL_ERROR_INVALID;
+    }
+    renderer->frame.clouds.accumulates = accumulates;
+    return TRL_OK;
+}
+
 const char *trl_air_name(trl_air air)
 {
     static const char *const names[] = {[TRL_AIR_TABLE] = "table", [TRL_AIR_MARCH] = "march"};

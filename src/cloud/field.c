@@ -101,6 +101,18 @@ double cloud_field_highest_m(const struct cloud_field *field)
     return highest_m;
 }
 
+double cloud_field_far_m(const struct cloud_field *field, struct vec3 position_m)
+{
+    const double altitude_m = vec3_length(position_m) - field->ground_radius_m;
+    double far_m = INFINITY;
+    for (size_t i = 0; i < field->desc.layer_count; i++) {
+        const struct cloud_layer *l = &field->desc.layers[i];
+        const double outside_m = fmax(l->base_m - altitude_m, altitude_m - l->top_m);
+        far_m = fmin(far_m, fmax(outside_m, 0));
+    }
+    return far_m;
+}
+
 double cloud_field_detail(enum cloud_type type)
 {
     static const double weights[] = {

@@ -34,6 +34,9 @@ struct vec3 cloud_field_unturned(const struct cloud_field *field, size_t layer,
 
 double cloud_field_highest_m(const struct cloud_field *field); // the uppermost top
 
+// How far the nearest layer is above or below a place; 0 in one.
+double cloud_field_far_m(const struct cloud_field *field, struct vec3 position_m);
+
 // The part of each height that a layer may cover over a place, from the planet's centre.
 double cloud_field_cover(const struct cloud_field *field, size_t layer, struct vec3 position_m);
 

@@ -72,15 +72,19 @@ static void finish_programs(struct cloud_march *m)
     gpu_program_finish(&m->filter);
     gpu_program_finish(&m->join);
     gpu_program_finish(&m->shade);
+    gpu_program_finish(&m->history.gather);
     m->is_made = false;
 }
 
 static void finish_targets(struct cloud_march *m)
 {
-    gpu_target_finish(&m->clouds_target);
+    for (int i = 0; i < 2; i++) {
+        gpu_target_finish(&m->clouds_target[i]);
+        gpu_texture_finish(&m->clouds[i]);
+    }
+    cloud_history_forget(&m->history);
     gpu_target_finish(&m->joined_target);
     gpu_target_finish(&m->shades_target);
-    gpu_texture_finish(&m->clouds);
     gpu_texture_finish(&m->joined);
     gpu_texture_finish(&m->shades);
     m->width = m->height = 0;
@@ -136,6 +140,9 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     if (result == TRL_OK) {
         result = make_program(m->gpu, "cloud/shade.frag", surface, &m->shade);
     }
+    if (result == TRL_OK) {
+        result = make_program(m->gpu, "cloud/gather.frag", surface, &m->history.gather);
+    }
     m->is_bare = is_bare;
     m->has_march = view->air->has_march;
     m->peaked_count = view->air->peaked_count;
@@ -166,9 +173,9 @@ static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *pi
     desc.height = (picture->height + 1) / 2;
     trl_result result = make_target(m, &desc, &m->shades, &m->shades_target);
     desc.format = GPU_FORMAT_RGBA32F;
-    if (result == TRL_OK) {
+    for (int i = 0; i < 2 && result == TRL_OK; i++) {
         desc.label = "clouds";
-        result = make_target(m, &desc, &m->clouds, &m->clouds_target);
+        result = make_target(m, &desc, &m->clouds[i], &m->clouds_target[i]);
     }
     if (result == TRL_OK) {
         desc.label = "clouds joined";
@@ -231,7 +238,7 @@ static trl_result join(struct cloud_march *march, const struct cloud_view *view)
 {
     const struct gpu_pass filter = {.target = &march->joined_target};
     set_view(view, &march->filter);
-    gpu_program_set_texture(&march->filter, "u_clouds", &march->clouds);
+    gpu_program_set_texture(&march->filter, "u_clouds", &march->clouds[march->now]);
     gpu_pass_begin(march->gpu, &filter);
     const trl_result result = gpu_draw_fullscreen(&march->filter, "clouds");
     if (result != TRL_OK) {
@@ -240,11 +247,43 @@ static trl_result join(struct cloud_march *march, const struct cloud_view *view)
     const struct gpu_pass join = {.target = view->target,
                                   .state = {.blend = GPU_BLEND_PREMULTIPLIED}};
     set_view(view, &march->join);
-    gpu_program_set_texture(&march->join, "u_clouds", &march->clouds);
+    gpu_program_set_texture(&march->join, "u_clouds", &march->clouds[march->now]);
     gpu_program_set_texture(&march->join, "u_joined", &march->joined);
     gpu_program_set_float(&march->join, "u_sharp", find_sharpness(march, view));
     gpu_pass_begin(march->gpu, &join);
     return gpu_draw_fullscreen(&march->join, "clouds");
+}
+
+// Marches all rays into the next texture, or a quarter of them into the history's.
+static trl_result march_rays(struct cloud_march *march, const struct cloud_view *view,
+                             const float grid[3], const struct gpu_target *target)
+{
+    const struct gpu_pass clouds = {.target = target};
+    view->air->bind(view->air->self, true, &march->march);
+    cloud_march_set_field(march, view->camera, &march->march);
+    set_view(view, &march->march);
+    gpu_program_set_vec3(&march->march, "u_grid", grid);
+    gpu_pass_begin(march->gpu, &clouds);
+    return gpu_draw_fullscreen(&march->march, "clouds");
+}
+
+static trl_result accumulate(struct cloud_march *march, const struct cloud_view *view)
+{
+    struct cloud_history *history = &march->history;
+    float grid[3];
+    trl_result result = cloud_history_begin(march->gpu, history, &march->clouds[0], grid);
+    if (result == TRL_OK) {
+        result = march_rays(march, view, grid, &history->target);
+    }
+    if (result != TRL_OK) {
+        return result;
+    }
+    const struct gpu_pass gather = {.target = &march->clouds_target[1 - march->now]};
+    view->air->bind(view->air->self, false, &history->gather);
+    set_view(view, &history->gather);
+    cloud_history_set(history, view->camera, grid, &march->clouds[march->now]);
+    gpu_pass_begin(march->gpu, &gather);
+    return gpu_draw_fullscreen(&history->gather, "clouds");
 }
 
 trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *view)
@@ -253,11 +292,19 @@ trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *
     if (result != TRL_OK) {
         return result;
     }
-    const struct gpu_pass clouds = {.target = &march->clouds_target};
-    view->air->bind(view->air->self, true, &march->march);
-    cloud_march_set_field(march, view->camera, &march->march);
-    set_view(view, &march->march);
-    gpu_pass_begin(march->gpu, &clouds);
-    result = gpu_draw_fullscreen(&march->march, "clouds");
-    return result == TRL_OK ? join(march, view) : result;
+    const struct cloud_moment moment = {view->camera, view->time_s,
+                                        cloud_field_far_m(march->field, view->camera->position_m)};
+    if (view->accumulates && cloud_history_holds(&march->history, &moment)) {
+        result = accumulate(march, view);
+    } else {
+        result = march_rays(march, view, (const float[]){0, 0, 1},
+                            &march->clouds_target[1 - march->now]);
+    }
+    march->now = 1 - march->now;
+    if (result != TRL_OK) {
+        cloud_history_forget(&march->history);
+        return result;
+    }
+    cloud_history_keep(&march->history, &moment);
+    return join(march, view);
 }

@@ -15,6 +15,7 @@
 
 #include "base/camera.h"
 #include "cloud/field.h"
+#include "cloud/history.h"
 #include "gpu/pass.h"
 
 // The air of the model of the sky: what programs that include sky/spectral/air.glsl need.
@@ -35,9 +36,11 @@ struct cloud_march {
     bool is_bare, has_march;
     int peaked_count;
     struct gpu_program march, filter, join, shade;
-    uint32_t width, height; // of the last picture
-    struct gpu_texture clouds, joined, shades;
-    struct gpu_target clouds_target, joined_target, shades_target;
+    uint32_t width, height;                       // of the last picture
+    struct gpu_texture clouds[2], joined, shades; // of clouds this frame's and the one before
+    struct gpu_target clouds_target[2], joined_target, shades_target;
+    int now; // which of both is this frame's
+    struct cloud_history history;
 };
 
 // Uploads noise and map. The field must outlive it. TRL_ERROR_GPU, TRL_ERROR_MEMORY,
@@ -55,6 +58,8 @@ struct cloud_view {
     const struct gpu_texture *position; // NULL: bare sphere
     const struct gpu_target *target;
     const struct cloud_air *air;
+    double time_s;
+    bool accumulates; // marches a quarter, with the rest from frames before where it was seen
 };
 
 // Before the sky: fills `shades`.

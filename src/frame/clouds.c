@@ -60,6 +60,7 @@ bool clouds_are_drawn(const struct clouds *clouds, const struct sky *sky)
 void clouds_announce(struct clouds *clouds, const struct sky *sky, double time_s,
                      struct sky_view *view)
 {
+    clouds->time_s = time_s;
     if (clouds_are_drawn(clouds, sky)) {
         cloud_field_set_time(clouds->field, time_s);
         view->cloud_shade = &clouds->march.shades;
@@ -88,7 +89,12 @@ static trl_result draw(struct clouds *clouds, const struct sky *sky, const struc
 {
     const struct air_source source = {sky_get_air(sky, view), view};
     const struct cloud_air air = {source.air.peaked_count, source.air.has_march, bind_air, &source};
-    const struct cloud_view cloud_view = {view->camera, view->surface.position, view->target, &air};
+    const struct cloud_view cloud_view = {.camera = view->camera,
+                                          .position = view->surface.position,
+                                          .target = view->target,
+                                          .air = &air,
+                                          .time_s = clouds->time_s,
+                                          .accumulates = clouds->accumulates};
     return part(&clouds->march, &cloud_view);
 }
 

@@ -16,6 +16,8 @@ struct clouds {
     struct cloud_field *field;     // owned; NULL: no model has asked for them, or there are none
     struct cloud_march march;
     bool is_told;
+    bool accumulates; // over frames, see cloud/history.h
+    double time_s;    // of the frame
 };
 
 void clouds_init(struct gpu *gpu, const struct trl_scene *scene, struct clouds *out);
