@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// What clouds take of a frame: by cover, view and size, over a bare sphere.
+// What clouds take of a frame: by cover, view and size, over a bare sphere; and in a flight, where
+// they come together over frames.
 #include "bench.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const double turn_rad = 0.005; // of a flight, from frame to frame
 
 enum { DEFAULT_RUNS = 3, TIMINGS_MAX = 32, COVERS = 3, SIZES = 2, VIEWS = 2, MAX_BYTES = 1 << 20 };
 
@@ -75,6 +78,7 @@ struct cloud_case {
     trl_renderer *renderer;
     trl_view view;
     struct number_size size;
+    bool is_flight;
     char name[BENCH_NAME_MAX];
 };
 
@@ -87,7 +91,9 @@ static trl_result draw_case(const struct bench_job *job, const struct cloud_case
             report_error(EXIT_FAILED, "cancelled while drawing %s", c->name);
             return TRL_ERROR_CANCELLED;
         }
-        result = trl_renderer_draw(c->renderer, &c->view, c->size.width, c->size.height, 0);
+        trl_view view = c->view;
+        view.heading_rad += c->is_flight ? i * turn_rad : 0;
+        result = trl_renderer_draw(c->renderer, &view, c->size.width, c->size.height, 0);
         trl_renderer_wait(c->renderer);
         if (i > 0 && result == TRL_OK) { // the first compiles
             result = add_passes(job, c->renderer, c->name);
@@ -106,12 +112,16 @@ static trl_result measure_cover(const struct bench_job *job, double cover)
         desc.measures_time = true;
         result = trl_renderer_create(job->app->ctx, &desc, &c.renderer);
     }
-    for (int i = 0; i < VIEWS * SIZES && result == TRL_OK; i++) {
-        const char *view = views[i / SIZES];
-        c.size = sizes[i % SIZES];
-        snprintf(c.name, sizeof c.name, "cover %g, %s %ux%u", cover, view, c.size.width,
-                 c.size.height);
+    for (int i = 0; i < 2 * VIEWS * SIZES && result == TRL_OK; i++) {
+        const char *view = views[i / 2 / SIZES];
+        c.size = sizes[i / 2 % SIZES];
+        c.is_flight = i % 2 == 1;
+        snprintf(c.name, sizeof c.name, "cover %g, %s %ux%u%s", cover, view, c.size.width,
+                 c.size.height, c.is_flight ? ", flight" : "");
         result = trl_scene_view(scene, view, &c.view);
+        if (result == TRL_OK) {
+            result = trl_renderer_accumulate_clouds(c.renderer, c.is_flight);
+        }
         if (result == TRL_OK) {
             result = draw_case(job, &c);
             bench_show(job);

@@ -20,7 +20,10 @@
     "  ; '               scatter it less, more forward (asymmetry g)\n"                            \
     "  1 … 9             fly to a view of the scene\n"                                           \
     "  F  P  H           full screen; save a picture; print these keys\n"                          \
-    "  Esc               quit\n"
+    "  Esc               quit\n"                                                                   \
+    "\n"                                                                                           \
+    "While something moves, fewer pixels are drawn if need be, and clouds come together over\n"    \
+    "four frames; when it stops, all at once.\n"
 
 enum { VIEWER_MESSAGE_MAX = 256 };
 
