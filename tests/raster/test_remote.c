@@ -46,6 +46,7 @@ static int set_up_served(void **state, bool allows_remote)
         return -1;
     }
     setenv("no_proxy", HOST, 1);
+    setenv("GDAL_HTTP_RETRY_DELAY", "0.05", 1);
     start_server(*state);
     return 0;
 }
@@ -243,7 +244,9 @@ static size_t count_requests(const struct fixture *f)
     return count;
 }
 
-// A globe whose finest level has 16 x 8 tiles, and a cache for it.
+enum { COLUMNS = 8, ROWS = 4, TILES = COLUMNS * ROWS };
+
+// A globe whose finest level has so many tiles, and a cache for it.
 struct globe {
     struct pyramid pyramid;
     struct tile_cache *cache;
@@ -252,7 +255,7 @@ struct globe {
 
 static void open_globe(struct fixture *f, uint32_t threads, struct globe *out)
 {
-    write_globe(f, "cloud.tif", 4096, true);
+    write_globe(f, "cloud.tif", COLUMNS * PYRAMID_TILE, true);
     open_remote(f, "cloud.tif", &out->pyramid);
     const struct tile_cache_desc desc = {.max_bytes = 1 << 26, .threads = threads, .retry_s = 0.05};
     assert_int_equal(tile_cache_create(f->ctx, &desc, &out->cache), TRL_OK);
@@ -275,8 +278,8 @@ static size_t want_all(struct globe *globe)
     tile_cache_retry(globe->cache);
     for (int round = 0; round < 2; round++) {
         tile_cache_begin(globe->cache);
-        for (uint32_t i = 0; i < 128; i++) {
-            const struct tile_key key = {globe->source, {0, i % 16, i / 16}};
+        for (uint32_t i = 0; i < TILES; i++) {
+            const struct tile_key key = {globe->source, {0, i % COLUMNS, i / COLUMNS}};
             const enum tile_state state = tile_cache_want(globe->cache, &key, 1, &view);
             ready += round == 1 && state == TILE_READY;
             assert_true(round == 0 || state == TILE_READY || state == TILE_FAILED);
@@ -286,7 +289,7 @@ static size_t want_all(struct globe *globe)
     return ready;
 }
 
-// Without a limit each of 128 tiles would be asked for twice, with a pause before the second time.
+// Without a limit each tile would be asked for twice, with a pause before the second time.
 static void a_server_that_fails_is_given_up_and_asked_again_later(void **state)
 {
     struct fixture *f = *state;
@@ -310,26 +313,26 @@ static void a_server_that_fails_is_given_up_and_asked_again_later(void **state)
     tile_cache_release(globe.cache, &coarse);
     usleep(300000); // more than 4 * retry_s
     set_fault(f, NULL);
-    assert_int_equal(want_all(&globe), 128);
+    assert_int_equal(want_all(&globe), TILES);
     assert_int_equal(f->errors + f->warnings, 2); // told once
     close_globe(&globe);
 }
 
-// The user's own limits count: one second of silence, no second try.
+// The user's own limits count: one second for a request, no second try.
 static void a_server_that_says_nothing_is_given_up(void **state)
 {
     struct fixture *f = *state;
-    setenv("GDAL_HTTP_LOW_SPEED_TIME", "1", 1);
-    setenv("GDAL_HTTP_MAX_RETRY", "0", 1);
     struct globe globe;
     open_globe(f, 8, &globe);
+    setenv("GDAL_HTTP_TIMEOUT", "1", 1);
+    setenv("GDAL_HTTP_MAX_RETRY", "0", 1);
     set_fault(f, "stall 0");
     assert_true(want_all(&globe) < 8);
     assert_int_equal(f->errors, 1);
     assert_non_null(strstr(f->last, "cloud.tif"));
     assert_int_equal(f->warnings, 1);
     close_globe(&globe);
-    unsetenv("GDAL_HTTP_LOW_SPEED_TIME");
+    unsetenv("GDAL_HTTP_TIMEOUT");
     unsetenv("GDAL_HTTP_MAX_RETRY");
 }
 
