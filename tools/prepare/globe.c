@@ -299,7 +299,7 @@ static trl_result read_sources(struct globe *globe)
 static trl_result merge_globe(struct globe *globe)
 {
     mark_water(globe);
-    const trl_result result = flood_oceans(globe);
+    trl_result result = flood_oceans(globe);
     if (result != TRL_OK) {
         return result;
     }
@@ -308,7 +308,12 @@ static trl_result merge_globe(struct globe *globe)
     for (int row = 0; row < GLOBE_HEIGHT; row++) {
         merge_row(globe, row);
     }
-    return write_globe(globe);
+    // Distances are not needed any more.
+    for (size_t i = 0; i < CELLS; i++) {
+        globe->distance[i] = globe->cells[i] == CELL_OCEAN;
+    }
+    result = lakes_make_level(globe->places, globe->distance, globe->elevation, globe->water);
+    return result == TRL_OK ? write_globe(globe) : result;
 }
 
 trl_result earth_prepare_globe(const struct places *places, const struct picture *snow)

@@ -86,6 +86,11 @@ void land_finish(const struct places *places, struct land *land);
 // Elevation and open water of the whole globe, and its snow: the share of it that pictures have.
 TRL_MUST_USE trl_result earth_prepare_globe(const struct places *places,
                                             const struct picture *snow);
+// Makes the lakes of the globe's mask level, and ends them where land rises; `oceans` is not 0 in
+// cells of the sea. TRL_ERROR_MEMORY.
+TRL_MUST_USE trl_result lakes_make_level(const struct places *places, const uint8_t *oceans,
+                                         int16_t *elevation, uint8_t *water);
+
 // The inset in Colorado.
 TRL_MUST_USE trl_result earth_prepare_colorado(const struct places *places);
 // The best colour and night light pictures that are there, and the cover of clouds where it is.
