@@ -32,6 +32,14 @@ SHARED_STRUCT(Shore)
 // What lies at sea level beside the sea is sea from this part of the mask on.
 #define SHORE_LEVEL_MASK 0.1
 
+// Part of the made-up relief that is left where a mask has this value: water is level, and so is
+// what detail may add to it beside a lake. Never 0, where relief would have no detail to tell.
+SHARED_FN Number shore_dry(Number mask)
+{
+    Number x = shared_clamp(mask / (0.5 - SHORE_LAKE_MADE), 0.0, 1.0);
+    return shared_max(1.0 - x * x * (3.0 - 2.0 * x), 1.0e-4);
+}
+
 // Part of the footprint that is open water.
 SHARED_FN Number shore_water(Shore s)
 {

@@ -12,6 +12,17 @@ vec3 ground_local(vec2 geo)
                 -versine.y - cos_latitude * u_anchor.y * versine.x);
 }
 
+// Part of the octaves that lakes leave, whose depth is not known; the sea has none at its level.
+float ground_dry(Tangent t)
+{
+#if defined(HAS_DEPTH) && !defined(HAS_PAGES)
+    vec3 water = terrain_water(t.ground, t.log2_footprint);
+    return shore_dry(water.y > 0.5 / 255.0 ? 0.0 : water.x);
+#else
+    return 1.0;
+#endif
+}
+
 // `quad_footprint`: one for 2 x 2 pixels; `known_height`: of the data, where they are the ground.
 NoiseBase ground_base(Tangent t, float quad_footprint, float known_height)
 {
@@ -25,8 +36,9 @@ NoiseBase ground_base(Tangent t, float quad_footprint, float known_height)
     b.height = known_height;
 #endif
     b.slope = slope.xyz;
-    b.spread = g.spread.x * t.east + g.spread.y * t.north;
-    b.view = NoiseView(t.log2_footprint, slope.w, g.map.y, g.map.z);
+    float dry = ground_dry(t);
+    b.spread = dry * (g.spread.x * t.east + g.spread.y * t.north);
+    b.view = NoiseView(t.log2_footprint, slope.w, g.map.y * dry, g.map.z);
     b.climate = g.map.w;
     return b;
 }

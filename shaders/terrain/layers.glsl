@@ -16,6 +16,7 @@
 #include "shared/blend.glsl"
 #include "shared/cubic.glsl"
 #include "shared/projection.glsl"
+#include "shared/shore.glsl"
 #ifdef HAS_PAGES
 #include "terrain/pages.glsl"
 #endif
@@ -400,6 +401,7 @@ float layers_altitude_linear(float below, Ground g, float log2_footprint)
 
 // Here, since a file counts once, also where it is left out.
 #include "terrain/slope.glsl"
+#include "terrain/water.glsl"
 
 #ifdef HAS_NOISE
 #include "terrain/ground.glsl"

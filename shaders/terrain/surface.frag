@@ -193,7 +193,6 @@ vec3 terrain_lights(Ground g, float log2_footprint)
 
 #ifdef HAS_DEPTH
 #include "shared/sea.glsl"
-#include "shared/shore.glsl"
 uniform float u_sea_depth; // code of the depth everywhere; below 0: there is none
 #endif
 #include "terrain/look.glsl"

@@ -216,8 +216,6 @@ trl_result load_upload_depths(struct surface *surface)
         if (surface->depths[i]) {
             result = layer_upload_mask(surface->gpu, surface->masks[i], surface->depths[i],
                                        &surface->layers[SURFACE_WATER][i]);
-            mem_free(surface->ctx, surface->depths[i]);
-            surface->depths[i] = NULL;
         }
     }
     return result;

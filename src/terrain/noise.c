@@ -202,7 +202,7 @@ Relief noise_relief_at(const struct terrain_noise *noise, const struct noise_pla
     const struct noise_ground *g = &place->ground;
     struct noise_place p = *place;
     const double full = relief_fullness(g->height_m, noise->desc.full_height_m);
-    p.ground.amplitude_m *= full;
+    p.ground.amplitude_m *= full * g->dry;
     Relief r = relief_of(g->height_m, g->slope.x, g->slope.y, g->slope.z);
     if (!(p.ground.amplitude_m > 0)) {
         return r; // at sea
@@ -244,7 +244,7 @@ struct vec3 noise_rock_normal(const struct terrain_noise *noise, const struct no
 {
     const double part = relief_rock(stand->slope);
     const struct vec3 at = vec3_scale(place->up, noise->radius_m + stand->height_m);
-    const double amplitude = place->ground.amplitude_m *
+    const double amplitude = place->ground.amplitude_m * place->ground.dry *
                              relief_fullness(place->ground.height_m, noise->desc.full_height_m);
     NoiseValue rock = {0, 0, 0, 0};
     for (int i = first_of_rock(noise); i < noise->ends[2] && part > 0; i++) {

@@ -80,7 +80,10 @@ struct noise_ground {
     double height_m, amplitude_m, ridged, climate;
     struct vec3 slope;  // of the height
     struct vec3 spread; // of the amplitude
+    double dry;         // part of the octaves that water leaves: shore_dry; and of that, what it
+    double dry_per_m;   // changes by in a m at most
 };
+// All dry.
 struct noise_ground noise_ground_at(const struct terrain_noise *noise, struct vec3 up);
 
 // log2 of a footprint that sees all octaves.

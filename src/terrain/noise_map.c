@@ -176,6 +176,11 @@ struct noise_ground noise_ground_at(const struct terrain_noise *noise, struct ve
             spline_slope(fy, rows[0][c], rows[1][c], rows[2][c]) * per_radian[1] / noise->radius_m;
         slope[c] = vec3_sub(vec3_scale(east, along), vec3_scale(north, south));
     }
-    return (struct noise_ground){blended[0], blended[1], blended[2],
-                                 blended[3], slope[0],   slope[1]};
+    return (struct noise_ground){.height_m = blended[0],
+                                 .amplitude_m = blended[1],
+                                 .ridged = blended[2],
+                                 .climate = blended[3],
+                                 .slope = slope[0],
+                                 .spread = slope[1],
+                                 .dry = 1};
 }

@@ -44,10 +44,12 @@ static struct noise_range find_amplitudes(const struct terrain_noise *noise,
     const double spread = noise->steepest_spread * around->reach_m;
     const double rise = around->steepest * around->reach_m;
     const double height = fabs(g->height_m);
-    return (struct noise_range){fmax(g->amplitude_m - spread, 0) *
+    const double dried = g->dry_per_m * around->reach_m;
+    return (struct noise_range){fmax(g->amplitude_m - spread, 0) * fmax(g->dry - dried, 0) *
                                     relief_fullness(fmax(height - rise, 0), full),
-                                g->amplitude_m * relief_fullness(height, full),
-                                (g->amplitude_m + spread) * relief_fullness(height + rise, full)};
+                                g->amplitude_m * g->dry * relief_fullness(height, full),
+                                (g->amplitude_m + spread) * fmin(g->dry + dried, 1) *
+                                    relief_fullness(height + rise, full)};
 }
 
 // Of an octave, with what data leave of it; `texels` are what they may resolve (log2).

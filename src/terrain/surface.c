@@ -3,6 +3,7 @@
 #include "terrain/surface.h"
 
 #include "shared/blend.glsl"
+#include "shared/shore.glsl"
 #include "terrain/slope.h"
 #include "terrain/stream.h"
 
@@ -27,6 +28,30 @@ static double lay_over(const struct surface *s, sample_fn sample, double below, 
         }
     }
     return altitude;
+}
+
+double surface_lake(const struct surface *s, double latitude, double longitude)
+{
+    double water = 0;
+    if (s->stream) {
+        return 0;
+    }
+    for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
+        const struct layer_frame *frame = &s->layers[SURFACE_WATER][i].frame;
+        const struct layer_place p = layer_locate(frame, latitude, longitude);
+        if (p.weight > 0 && s->depths[i]) {
+            const double x = p.x - floor(p.x), y = p.y - floor(p.y);
+            double value = 0;
+            for (int k = 0; k < 4; k++) {
+                const size_t index = layer_texel_index(frame, (int64_t)floor(p.x) + k % 2,
+                                                       (int64_t)floor(p.y) + k / 2);
+                const int lake = s->depths[i][index] == 0 ? s->masks[i][index] : 0;
+                value += (k % 2 ? x : 1 - x) * (k / 2 ? y : 1 - y) * lake / 255;
+            }
+            water += p.weight * (value - water);
+        }
+    }
+    return water;
 }
 
 size_t surface_count_layers(const struct surface *surface)
@@ -61,6 +86,20 @@ double surface_altitude_of_held(const struct surface *s, struct vec3 direction)
     return altitude_of_data(s, layer_sample_held, direction);
 }
 
+// What shore_dry changes by in a m, at most: across a texel of the finest mask from 1 to 0 in each
+// direction, 1.5 times as fast in the middle of the part where it does, and thrice where masks
+// blend as fast.
+static double steepest_dry(const struct surface *s, double latitude)
+{
+    double finest_rad = INFINITY;
+    for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
+        const struct layer_frame *f = &s->layers[SURFACE_WATER][i].frame;
+        const double wide = f->pole == 0 ? fmax(cos(latitude), 1e-2) : 1;
+        finest_rad = fmin(finest_rad, f->texel_height * wide);
+    }
+    return 3 * 1.5 / (0.5 - SHORE_LAKE_MADE) / (finest_rad * s->radius_m);
+}
+
 void surface_find_place(const struct surface *s, struct vec3 direction, struct noise_place *place)
 {
     const double latitude = atan2(direction.z, hypot(direction.x, direction.y));
@@ -74,6 +113,8 @@ void surface_find_place(const struct surface *s, struct vec3 direction, struct n
     ground.slope = slope.slope;
     ground.height_m =
         lay_over(s, layer_sample, s->is_invented ? ground.height_m : 0, latitude, longitude);
+    ground.dry = shore_dry(surface_lake(s, latitude, longitude));
+    ground.dry_per_m = steepest_dry(s, latitude);
     *place = (struct noise_place){up, ground, slope.log2_texel, NOISE_ALL, NOISE_MAX_OCTAVES};
 }
 

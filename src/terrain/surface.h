@@ -103,9 +103,9 @@ struct surface {
     double min_altitude_m, max_altitude_m;
     struct stream *stream; // owned; NULL: all layers are held whole
     struct surface_depth depth;
-    // Owned, while loading or without a GPU; codes for texels of the masks.
+    // Owned, as masks: codes for their texels.
     uint8_t *depths[SURFACE_MAX_LAYERS];
-    uint8_t *masks[SURFACE_MAX_LAYERS]; // owned; bytes of the water layers, where there is a stream
+    uint8_t *masks[SURFACE_MAX_LAYERS]; // owned, as long as somebody looks; of the water layers
 };
 
 // Reads and uploads all rasters. One that is there but no good (too many, beyond max_bytes, not
@@ -154,6 +154,10 @@ double surface_altitude_of_held(const struct surface *surface, struct vec3 direc
 // What the octaves of the noise are added to there. Only where there is noise.
 void surface_find_place(const struct surface *surface, struct vec3 direction,
                         struct noise_place *place);
+
+// Part that is a lake, linear between the texels of masks; 0 where none tells the depth of water,
+// and with tiles.
+double surface_lake(const struct surface *surface, double latitude, double longitude);
 
 // Relief with noise there, before water, with its gradient along planet axes, and what it is made
 // of. Only where there is noise.

@@ -102,6 +102,29 @@ static void water_ends_where_mask_and_heights_say(void **state)
     surface_finish(&on_cpu);
 }
 
+// Detail goes on below the data, up to a lake's shore.
+static void made_up_relief_ends_at_a_lake(void **state)
+{
+    const struct fixture *f = *state;
+    char paths[LAYERS][128];
+    struct surface_layer_desc layers[LAYERS];
+    struct surface_desc desc = describe(f, paths, layers);
+    desc.detail = (struct surface_detail){.roughness = 1, .smallest_m = 1000};
+    struct surface s;
+    assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
+    double most = 0;
+    for (int k = 0; k < 50; k++) {
+        const double beside = 30 + 0.1 * k, within = 50 + 0.1 * k;
+        const struct vec3 land = vec3_from_lat_lon(30 * DEGREE, beside * DEGREE);
+        most = fmax(most, fabs(surface_altitude(&s, land) - 500));
+        // A ten thousandth of what is left of relief, for its tone.
+        const struct vec3 lake = vec3_from_lat_lon(30 * DEGREE, within * DEGREE);
+        assert_close(surface_altitude(&s, lake), 500, 0.5);
+    }
+    assert_true(most > 20);
+    surface_finish(&s);
+}
+
 static double find_red(const struct surface *s, double latitude, double longitude)
 {
     double rgb[3] = {0};
@@ -138,6 +161,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_ends_where_mask_and_heights_say),
+        cmocka_unit_test(made_up_relief_ends_at_a_lake),
         cmocka_unit_test(land_is_not_painted_as_the_sea_beside_it),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
