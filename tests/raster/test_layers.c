@@ -103,11 +103,16 @@ static const char *put_bytes(const struct fixture *f, const char *name, const vo
     return path;
 }
 
+static const char *put_text(const struct fixture *f, const char *name, const char *text)
+{
+    return put_bytes(f, name, text, strlen(text));
+}
+
 static void what_is_no_raster(void **state)
 {
     struct fixture *f = *state;
-    expect_height_left_out(f, put_bytes(f, "empty.tif", "", 0), "fetch or copy it again");
-    expect_height_left_out(f, put_bytes(f, "words.tif", "height,of,land\n", 15), "no raster");
+    expect_height_left_out(f, put_text(f, "empty.tif", ""), "fetch or copy it again");
+    expect_height_left_out(f, put_text(f, "words.tif", "height,of,land\n"), "no raster");
     char folder[128];
     snprintf(folder, sizeof folder, "%s/folder.tif", f->folder);
     assert_int_equal(mkdir(folder, 0700), 0);
@@ -474,13 +479,13 @@ static void world_files_place_pictures(void **state)
     GDALClose(made);
     snprintf(aside, sizeof aside, "%s.aux.xml", path);
     (void)unlink(aside);
-    put_bytes(f, "placed.pgw", "0.5\n0\n0\n-0.5\n10.25\n49.75\n", 29);
+    put_text(f, "placed.pgw", "0.5\n0\n0\n-0.5\n10.25\n49.75\n");
     struct raster raster;
     assert_int_equal(raster_open(f->ctx, path, &raster), TRL_OK);
     assert_true(fabs(raster.west_deg - 10) < 1e-9 && fabs(raster.north_deg - 50) < 1e-9);
     assert_true(fabs(raster.east_deg - 28) < 1e-9 && fabs(raster.south_deg - 41) < 1e-9);
     raster_finish(&raster);
-    put_bytes(f, "placed.pgw", "30\n0\n0\n-30\n420000\n5200000\n", 29);
+    put_text(f, "placed.pgw", "30\n0\n0\n-30\n420000\n5200000\n");
     expect_colour_left_out(f, path, "if they are not degrees");
 }
 
