@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // What a pixel of open water shows of the waves: the mean normal of those that it resolves (planet
-// axes, unit), and the mean square slope of all that it does not, along and across together.
+// axes, of the length 1 + part under fresh foam), and the mean square slope of all that it does
+// not, along and across together.
 #include "ocean/waves.glsl"
 #include "shared/sea.glsl"
 
@@ -11,6 +12,7 @@ uniform float u_has_level;    // 1: there is such
 uniform sampler2D u_albedo;   // a: part that is open water
 uniform sampler2D u_lights;   // a: code of the water's depth
 uniform float u_pixel_rad;
+uniform vec3 u_foam; // where it begins and how wide: sea_foam; mean square of what no pixel shows
 
 layout(location = 0) out vec4 o_facet;
 
@@ -34,7 +36,10 @@ vec4 facet(vec3 position, vec4 level, float depth)
     GerstnerNormal turned = gerstner_to_anchor(p, n.x, n.y, n.z);
     // A row times a matrix: the transpose turns local axes back into the planet's.
     vec3 normal = normalize(vec3(turned.x, turned.y, turned.z)) * u_wave_local_from_planet;
-    return vec4(normal, sum.lost_square);
+    float all = max(sum.press_square + u_foam.z, 1.0e-12);
+    float lost = sqrt((sum.press_lost + u_foam.z) / all);
+    float foam = sea_foam(sum.press * inversesqrt(all), lost, u_foam.x, u_foam.y);
+    return vec4(normal * (1.0 + foam), sum.lost_square);
 }
 
 void main()

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 // The waves around an eye, summed at a place. The C side is src/ocean/wave_texture.c.
 #include "shared/gerstner.glsl"
+#include "shared/sea.glsl"
 
 uniform highp sampler2D u_waves; // 7 x groups of 4 waves, the longest first
 uniform int u_wave_groups;
 uniform vec4 u_wave_range; // radius of the sea (m), distance of the eye from the centre (m), mean
-                           // square slope of what is shorter than all waves
+                           // square slope of what is shorter than all waves; breaking wavenumber
+                           // of shared/sea.glsl
 uniform mat3 u_wave_local_from_planet;
 
 // Beyond this part of the radius no wave is looked at: series of angles end there.
@@ -46,16 +48,21 @@ GerstnerSum waves_sum(GerstnerPlace p, WavesWindow window)
             w.amplitude *= gerstner_shoal(w.wavenumber, window.depth);
             is_seen = is_seen && near * gerstner_weight(w.wavenumber * window.least, 0.0) >
                                      GERSTNER_LEAST_WEIGHT;
+            float steep = w.amplitude * w.wavenumber;
+            float press = steep * sea_breaking(w.wavenumber, u_wave_range.w);
+            sum.press_square += 0.5 * press * press;
             if (!is_seen) {
-                float steep = w.amplitude * w.wavenumber;
                 sum.lost_square += 0.5 * steep * steep;
+                sum.press_lost += 0.5 * press * press;
                 continue;
             }
             GerstnerRipple r =
                 gerstner_ripple(w, p, u_wave_range.x, gerstner_small_angle(gerstner_turn(w, p)));
             vec2 d = vec2(r.dx, r.dy) * w.wavenumber;
-            sum =
-                gerstner_add(sum, w, r, near * gerstner_weight(dot(d, window.x), dot(d, window.y)));
+            float weight = near * gerstner_weight(dot(d, window.x), dot(d, window.y));
+            sum = gerstner_add(sum, w, r, weight);
+            sum.press += press * weight * r.sine;
+            sum.press_lost += 0.5 * press * press * (1.0 - weight * weight);
         }
     }
     sum.lost_square += u_wave_range.z;

@@ -118,6 +118,9 @@ SHARED_STRUCT(GerstnerSum)
     Number gx, gy;      // gradient of z by the undisplaced place
     Number xx, xy, yy;  // compression: 1 - the gradient of x and y
     Number lost_square; // mean square slope of what weights have left out
+    // What makes foam, by shared/sea.glsl: compression with Q = 1 by the waves that break, the mean
+    // square of all of it, and of what weights have left out.
+    Number press, press_square, press_lost;
 };
 
 SHARED_FN GerstnerSum gerstner_level(void)
@@ -127,6 +130,7 @@ SHARED_FN GerstnerSum gerstner_level(void)
     s.gx = s.gy = 0.0;
     s.xx = s.xy = s.yy = 0.0;
     s.lost_square = 0.0;
+    s.press = s.press_square = s.press_lost = 0.0;
     return s;
 }
 

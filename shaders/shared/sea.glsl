@@ -48,6 +48,36 @@ SHARED_FN Number sea_disc_slope(Angle radius)
     return radius * radius / 8.0;
 }
 
+// Albedo of fresh foam in visible light (Whitlock, Bartlett and Gurganus 1982, Geophys. Res. Lett.
+// 9).
+#define SEA_FOAM_ALBEDO 0.55
+
+// Of normally distributed numbers the part below one (logistic; within 2e-4).
+SHARED_FN Number sea_part_below(Number deviations)
+{
+    return 1.0 / (1.0 + exp(-deviations * (1.5976 + 0.070566 * deviations * deviations)));
+}
+
+// Part of the water under fresh foam, where waves press the surface together by `crest`, and others
+// which are not seen by normally distributed numbers of the deviation `lost`; all over the
+// deviation of all. Foam begins at `first` and is dense `width` beyond it: three steps of a ramp.
+SHARED_FN Number sea_foam(Number crest, Number lost, Number first, Number width)
+{
+    Number scale = 1.0 / sqrt(lost * lost + width * width / 36.0);
+    Number past = crest - first;
+    return (sea_part_below((past - width / 6.0) * scale) +
+            sea_part_below((past - width / 2.0) * scale) +
+            sea_part_below((past - width * (5.0 / 6.0)) * scale)) /
+           3.0;
+}
+
+// What waves press together counts with this part: long ones break, short ones only make edges
+// ragged. `breaking`: wavenumber of half of it.
+SHARED_FN Number sea_breaking(Number wavenumber, Number breaking)
+{
+    return 1.0 / (1.0 + wavenumber / breaking);
+}
+
 // Roughnesses that tables have: the mean square slope of all waves, and less by a factor of 2 to
 // this power for each level below it.
 #define SEA_LEVELS 3

@@ -153,7 +153,7 @@ Mirrored reflection(ivec2 pixel, ivec2 size)
     float mss = u_sea.x;
 #ifdef FACETS
     vec4 waves = texelFetch(u_facets, pixel, 0);
-    normal = waves.xyz;
+    normal = normalize(waves.xyz);
     mss = waves.w;
 #endif
     vec3 air = texelFetch(u_radiance, pixel, 0).rgb;

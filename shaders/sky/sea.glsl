@@ -11,7 +11,8 @@ uniform sampler2D u_water; // depth x (1 + roughnesses): reflectance of the wate
                            // that of the surface over the root of the view's cosine, y: see
                            // Sea.mirror_mu
 #ifdef FACETS
-uniform sampler2D u_facets; // normal of the waves that are resolved; mean square slope of the rest
+uniform sampler2D u_facets; // of ocean/facets.h: normal of the waves that are resolved, foam; mean
+                            // square slope of the rest
 uniform float u_disc_slope; // what the star's disc adds
 #endif
 uniform sampler2D u_reflection; // of terrain: see sky/reflection.frag
@@ -33,6 +34,7 @@ struct Sea {
     float mirror_mu; // cosine of the zenith angle where it mirrors the sky, in the mean
     float passed;    // part of light from everywhere that enters the water, at 60 degrees
     float entered;   // of the star's
+    vec2 white;      // share of the surface that is white, and its albedo
     vec4 water;      // of the water below the surface
     vec4 terrain;    // mirrored, linear sRGB behind the air; part of the mirrored sky that it hides
 };
@@ -76,9 +78,12 @@ Sea find_sea(Ray ray, Ground ground)
     sea.height = visible_height(sea.sun_mu, u_disc.y);
     sea.normal = sea.up;
     float mss = u_sea.x;
+    sea.white = u_sea.zw;
 #ifdef FACETS
     vec4 waves = texelFetch(u_facets, ivec2(gl_FragCoord.xy), 0);
-    sea.normal = waves.xyz;
+    float stretched = length(waves.xyz);
+    sea.normal = waves.xyz / max(stretched, 1.0e-6);
+    sea.white = vec2(max(stretched - 1.0, 0.0), SEA_FOAM_ALBEDO);
     mss = max(waves.w + u_disc_slope, 1.0e-6);
 #endif
     sea.level = clamp(float(SEA_LEVELS - 1) + log2(mss / u_sea.x) * (1.0 / SEA_LEVEL_OCTAVES), 0.0,
@@ -105,7 +110,7 @@ Sea find_sea(Ray ray, Ground ground)
 // Of the light from the water, what terrain has sent.
 vec3 sea_mirrored_terrain(Sea sea)
 {
-    return sea.terrain.rgb * (sea.seen * (1.0 - u_sea.z));
+    return sea.terrain.rgb * (sea.seen * (1.0 - sea.white.x));
 }
 
 // The mirrored ray in the mean of the facets.
@@ -126,8 +131,8 @@ vec4 sea_radiance(Sea sea, vec4 star, vec4 sky, vec4 mirrored)
     vec4 below = star * (sea.height * sea.entered) + sky * sea.passed;
     vec4 clear = star * sea.glint + mirrored * (sea.seen * (1.0 - sea.terrain.a)) +
                  sea.water * below * ((1.0 - sea.seen) / SHARED_PI);
-    vec4 white = (star * sea.height + sky) * (u_sea.w / SHARED_PI);
-    return mix(clear, white, u_sea.z);
+    vec4 white = (star * sea.height + sky) * (sea.white.y / SHARED_PI);
+    return mix(clear, white, sea.white.x);
 }
 
 #endif // SKY_SEA_GLSL

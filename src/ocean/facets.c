@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "ocean/facets.h"
 
+#include "ocean/sea.h"
+
 #include <math.h>
 
 trl_result facets_init(struct gpu *gpu, const struct waves *waves, struct facets *out)
@@ -71,6 +73,11 @@ trl_result facets_draw(struct facets *facets, const struct facets_inputs *in)
     gpu_program_set_texture(program, "u_albedo", in->albedo);
     gpu_program_set_texture(program, "u_lights", in->lights);
     gpu_program_set_float(program, "u_pixel_rad", (float)pixel_rad);
+    const struct sea_foam_ramp foam = sea_foam_find(facets->waves.waves->white_share);
+    const float ramp[3] = {
+        (float)foam.first, (float)foam.width,
+        (float)wave_texture_unseen_press(&facets->waves, fmax(height_m, 0) * pixel_rad)};
+    gpu_program_set_vec3(program, "u_foam", ramp);
     const struct gpu_pass pass = {.target = &facets->target};
     gpu_pass_begin(facets->gpu, &pass);
     return gpu_draw_fullscreen(program, "facets of the sea");

@@ -14,8 +14,8 @@ struct facets {
     struct gpu *gpu;
     struct wave_texture waves;
     struct gpu_program program;
-    struct gpu_texture texture; // RGBA32F: unit normal, planet axes; mean square slope left; 0
-                                // where there is no water
+    struct gpu_texture texture; // RGBA32F: normal, planet axes, as long as 1 + part under
+                                // foam; mean square slope left; 0 where there is no water
     struct gpu_target target;
 };
 

@@ -4,6 +4,7 @@
 
 #include "ocean/water.h"
 #include "shared/fresnel.glsl"
+#include "shared/sea.glsl"
 
 #include <math.h>
 
@@ -16,6 +17,35 @@ double sea_mean_square_slope(const struct ocean_waves *waves)
 double sea_whitecap_share(const struct ocean_waves *waves)
 {
     return fmin(waves->whitecaps * 3.84e-6 * pow(waves->wind_m_s, 3.41), 1);
+}
+
+// Less foam than that is none.
+static const double LEAST_SHARE = 1e-7;
+
+struct sea_foam_ramp sea_foam_find(double share)
+{
+    enum { ROUNDS = 60 };
+    if (share < LEAST_SHARE) {
+        return (struct sea_foam_ramp){1e3, 1};
+    }
+    double low = -6, high = 6; // above `first` lies the share of all crests
+    for (int i = 0; i < ROUNDS; i++) {
+        const double middle = 0.5 * (low + high);
+        const bool is_more = 0.5 * erfc(middle / sqrt(2)) > share;
+        low = is_more ? middle : low;
+        high = is_more ? high : middle;
+    }
+    const double first = low;
+    low = 0, high = 2; // wider ramps are so soft that they reach more
+    for (int i = 0; i < ROUNDS; i++) {
+        const double middle = 0.5 * (low + high);
+        // From afar a pixel has the mean of it all.
+        const double seen = sea_foam(0, 1, first, middle);
+        const bool is_more = seen > SEA_FOAM_DENSITY * share;
+        low = is_more ? middle : low;
+        high = is_more ? high : middle;
+    }
+    return (struct sea_foam_ramp){first, low};
 }
 
 double sea_diffuse_reflectance(double index)

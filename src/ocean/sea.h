@@ -13,6 +13,16 @@ double sea_mean_square_slope(const struct ocean_waves *waves);
 // Part of the surface that is white: Monahan and O'Muircheartaigh 1980, J. Phys. Oceanogr. 10.
 double sea_whitecap_share(const struct ocean_waves *waves);
 
+// Of the whitecaps in a pixel what is dense foam: with its albedo 0.22 (Koepke 1984).
+#define SEA_FOAM_DENSITY 0.4
+
+// Where foam begins and how wide the ramp is, over the deviation of what presses crests together
+// (sea_foam of shared/sea.glsl): whitecaps cover `share`, with foam of that density.
+struct sea_foam_ramp {
+    double first, width;
+};
+struct sea_foam_ramp sea_foam_find(double share);
+
 // Albedo of what is white, streaks and patches that dissolve included: Koepke 1984, Appl. Opt. 23.
 #define SEA_WHITECAP_ALBEDO 0.22
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "ocean/wave_texture.h"
 
+#include "shared/sea.glsl"
+
 #include <math.h>
 
 trl_result wave_texture_init(struct gpu *gpu, const struct waves *waves, struct wave_texture *out)
@@ -78,12 +80,25 @@ static uint32_t count_shown(const struct wave_texture *t, double least_m, double
     return shown;
 }
 
+double wave_texture_unseen_press(const struct wave_texture *t, double least_m)
+{
+    double rest_square = 0, sum = 0;
+    const uint32_t shown = count_shown(t, least_m, &rest_square);
+    for (uint32_t i = shown * WAVES_LANES; i < t->view->count; i++) {
+        const GerstnerWave w = waves_view_get(t->view, i);
+        const double press =
+            w.amplitude * w.wavenumber * sea_breaking(w.wavenumber, t->waves->breaking_per_m);
+        sum += 0.5 * press * press;
+    }
+    return sum;
+}
+
 void wave_texture_bind(const struct wave_texture *t, double least_m, struct gpu_program *program)
 {
     double rest_square = 0;
     const uint32_t shown = count_shown(t, least_m, &rest_square);
     const float range[4] = {(float)t->waves->radius_m, (float)vec3_length(t->place),
-                            (float)rest_square, 0};
+                            (float)rest_square, (float)fmax(t->waves->breaking_per_m, 1e-9)};
     float local_from_planet[9];
     waves_local_from_planet(t->place, local_from_planet);
     gpu_program_set_texture(program, "u_waves", &t->texture);

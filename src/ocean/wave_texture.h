@@ -32,4 +32,7 @@ TRL_MUST_USE trl_result wave_texture_update(struct wave_texture *texture, struct
 void wave_texture_bind(const struct wave_texture *texture, double least_m,
                        struct gpu_program *program);
 
+// Mean square of what the waves that are then not looked at press together, of those that break.
+double wave_texture_unseen_press(const struct wave_texture *texture, double least_m);
+
 #endif // OCEAN_WAVE_TEXTURE_H

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "ocean/waves.h"
 
+#include "ocean/sea.h"
 #include "ocean/spectrum.h"
 
 #include <math.h>
@@ -10,6 +11,13 @@
 static const double LONGEST_OF_PEAK = 0.55, SHORTEST_OF_PEAK = 3, SHORTEST_M = 0.2;
 // Sum of the compressions of all crests together, at most: 1 would be a cusp.
 static const double MOST_COMPRESSION = 0.98;
+
+// Down to waves a ninth as fast as the peak crests have foam of their own; shorter ones only make
+// its edges ragged: wavenumber over the peak's, by how patches of foam look.
+static const double BREAKING_OF_PEAK = 80;
+
+// Of the numbers that directions are drawn from.
+static const uint32_t DIRECTIONS = 0x5bd1e995;
 
 enum { STEPS = 4096 };
 
@@ -75,13 +83,23 @@ static int find_step(const struct sums *sums, double part)
     return low;
 }
 
+// A part of all directions, with one of every eighth in eight neighbours, in an order drawn for
+// each eight. In one order for all, like that of the golden section, neighbours always cross at
+// about one angle, and the glint of short waves looks woven; drawn one by one, some seeds streak.
+static double draw_direction(uint32_t seed, uint32_t index)
+{
+    const uint32_t eight = UINT32_MAX - index / 8;
+    const uint32_t first = (uint32_t)(8 * draw_number(seed, eight));
+    const uint32_t stride = 1 + 2 * (uint32_t)(4 * draw_number(~seed, eight)); // odd: meets all
+    return ((first + stride * (index % 8)) % 8 + draw_number(seed, index)) / 8;
+}
+
 // Components take equal shares, with borders moved a little so that no beat repeats. Each keeps the
 // variance of height and of slope of its share.
 static void draw_components(struct waves *waves, const struct wave_spectrum *s,
                             const struct ocean_desc *ocean, const struct sums *sums)
 {
     const uint32_t wanted = waves->count;
-    const double begun = draw_number(waves->seed, UINT32_MAX);
     int from = 0;
     waves->count = 0;
     for (uint32_t i = 0; i < wanted; i++) {
@@ -95,8 +113,7 @@ static void draw_components(struct waves *waves, const struct wave_spectrum *s,
         }
         const double k = sqrt(slope / height);
         const double omega = sqrt(s->gravity_m_s2 * k);
-        // Directions by the golden section: evenly over every few neighbours.
-        const double part = fmod(begun + i * 0.6180339887498949, 1);
+        const double part = draw_direction(waves->seed ^ DIRECTIONS, i);
         const double turn = wave_spread_quantile(wave_spread_exponent(s, omega), part);
         waves->components[waves->count++] = (struct wave_component){
             sqrt(2 * height), k, omega, ocean->waves.wind_from_rad + M_PI + turn};
@@ -140,6 +157,9 @@ trl_result waves_init(const struct waves_desc *desc, struct waves *out)
         const struct wave_spectrum s = wave_spectrum_make(waves, desc->ocean->gravity_m_s2);
         sum_spectrum(&s, sums);
         draw_components(out, &s, desc->ocean, sums);
+        out->breaking_per_m =
+            BREAKING_OF_PEAK * wave_number_per_m(s.peak_per_s, desc->ocean->gravity_m_s2);
+        out->white_share = sea_whitecap_share(waves);
     }
     mem_free(desc->ctx, sums);
     if (result != TRL_OK) {

@@ -31,6 +31,8 @@ struct waves {
     double steepness;                  // Q of all: no sum of crests makes a loop
     double mean_square_slope;          // of the components
     double rest_square;                // of all shorter waves, beyond them
+    double breaking_per_m;             // of sea_breaking
+    double white_share;                // of sea_whitecap_share
 };
 
 // `total_square`: mean square slope of the whole surface. The shortest components are left out
