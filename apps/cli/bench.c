@@ -58,6 +58,8 @@ static const struct bench benches[] = {
     {"michelic-table2",
      "spherical waves by their number, for a picture of 80 x 80 and a larger one",
      bench_run_michelic_table2, "Michelic 2019, Table 2"},
+    {"ocean-frame", "the sea in a frame, pass by pass, from 10 m, 1 km and 400 km",
+     bench_run_ocean_frame, NULL},
     {"michelic-frame", "terrain, ocean, and air with clouds in full HD, by passes",
      bench_run_michelic_frame, "Michelic 2019, Figure 17"},
     {"pgm-fps", "frames per second of the projective mesher, by grid and screen, three views",

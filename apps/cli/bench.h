@@ -60,6 +60,7 @@ trl_result bench_run_santana_fit(const struct bench_job *job);
 trl_result bench_run_michelic_table1(const struct bench_job *job);
 trl_result bench_run_water_tables(const struct bench_job *job);
 trl_result bench_run_michelic_table2(const struct bench_job *job);
+trl_result bench_run_ocean_frame(const struct bench_job *job);
 trl_result bench_run_michelic_frame(const struct bench_job *job);
 trl_result bench_run_pgm_fps(const struct bench_job *job);
 

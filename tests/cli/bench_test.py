@@ -101,6 +101,8 @@ class Bench(ProgramTest):
     def test_waves_have_a_scene_of_their_own(self):
         self.expect_failure(1, ["bench", "michelic-table2", "--scene", self.write_scene()],
                             ["michelic-table2", "--scene"])
+        self.expect_failure(1, ["bench", "ocean-frame", "--scene", self.write_scene()],
+                            ["ocean-frame", "--scene"])
 
     @unittest.skipIf(IS_SLOW, "16 pictures of 1920 x 1080")
     def test_layers_of_noise_by_grids(self):
