@@ -309,6 +309,13 @@ static void seas_agree(void **state)
             const double wanted[4] = {
                 fresnel_reflectance(mu, (double)angle[1]), sea_hidden(mu, mss),
                 sea_glint(mu, 0.8, (double)shell[1], (double)shell[2], mss, 1.34), shell[3]};
+            gpu_program_set_float(&program, "u_wants_sea", 3);
+            const struct texel foam = draw(f, &program);
+            gpu_program_set_float(&program, "u_wants_sea", 1);
+            const double white = sea_foam(3 * mu, mss, (double)shell[2] + 1, (double)shell[1]);
+            if (fabs((double)foam.rgba[0] - white) > 1e-5) {
+                fail_msg("foam: GPU %.9g, C %.17g", (double)foam.rgba[0], white);
+            }
             // Powers of e of steep facets in a calm sea lose digits, but there is no light then.
             for (int k = 0; k < 4; k++) {
                 if (fabs((double)got.rgba[k] - wanted[k]) > 1e-6 + 1e-4 * fabs(wanted[k])) {

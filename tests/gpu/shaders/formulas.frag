@@ -67,6 +67,9 @@ void main()
                                                       u_shell.y, u_shell.z, u_shell.w)),
                                     0.0, 0.0)
                              : seas;
+    seas = u_wants_sea > 2.5
+               ? vec4(sea_foam(3.0 * u_angle.x, u_shell.x, u_shell.z + 1.0, u_shell.y))
+               : seas;
     o_color = u_wants_sea > 0.5          ? seas
               : u_wants_projection > 0.5 ? projections
               : u_wants_blend > 0.5      ? blends
