@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: MIT
 // Lakes are level. The land map is vague by tens of metres where they are, and the mask of water
 // spills over their shores: each lake takes the median of the heights in it, and ends where the
-// land is much higher than that.
+// land is much higher than that; where the mask is sure, only where it is far higher, since such
+// heights are wrong by as much (the Dead Sea's by hundreds of metres).
 #include "prepare.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { WATER = 128, SHORE_M = 60 }; // so much above a lake is land, so much below it another valley
+// So much above a lake is land, so much below it another valley.
+enum { WATER = 128, SURE = 255, SHORE_M = 60, SURE_SHORE_M = 240 };
 
 struct lakes {
     const struct places *places;
@@ -87,7 +89,8 @@ static void set_level(struct lakes *lakes, const uint8_t *oceans, size_t count, 
 {
     for (size_t n = 0; n < count; n++) {
         const size_t i = lakes->cells[n];
-        if (lakes->elevation[i] > level + SHORE_M) {
+        const int shore_m = lakes->water[i] == SURE ? SURE_SHORE_M : SHORE_M;
+        if (lakes->elevation[i] > level + shore_m) {
             lakes->water[i] = 0;
         } else {
             lakes->elevation[i] = (int16_t)level;
