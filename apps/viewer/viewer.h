@@ -22,8 +22,8 @@
     "  F  P  H           full screen; save a picture; print these keys\n"                          \
     "  Esc               quit\n"                                                                   \
     "\n"                                                                                           \
-    "While something moves, fewer pixels are drawn if need be, and clouds come together over\n"    \
-    "four frames; when it stops, all at once.\n"
+    "While something moves, fewer pixels are drawn if need be, and clouds come\n"                  \
+    "together over four frames; when it stops, all at once.\n"
 
 enum { VIEWER_MESSAGE_MAX = 256 };
 
