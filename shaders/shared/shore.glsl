@@ -31,6 +31,8 @@ SHARED_STRUCT(Shore)
 #define SHORE_SEA_MADE 0.35
 // What lies at sea level beside the sea is sea from this part of the mask on.
 #define SHORE_LEVEL_MASK 0.1
+// Of so many of the mask's texels and more a footprint has the mean.
+#define SHORE_MEAN_TEXELS 0.75
 
 // Part of the made-up relief that is left where a mask has this value: water is level, and so is
 // what detail may add to it beside a lake. Never 0, where relief would have no detail to tell.
@@ -53,7 +55,7 @@ SHARED_FN Number shore_water(Shore s)
     Number moved = s.mask - limit + made * (1.0 - is_level);
     // Where a footprint covers texels, the mask is its mean already.
     Number sharp = shared_clamp(0.5 + moved / shared_max(s.texels, 0.01), 0.0, 1.0);
-    Number coarse = shared_clamp(2.0 * s.texels - 0.5, 0.0, 1.0);
+    Number coarse = shared_clamp(1.0 + 2.0 * (s.texels - SHORE_MEAN_TEXELS), 0.0, 1.0);
     Number mask = sharp + (s.mask - sharp) * coarse;
     // Surely water and surely land stay.
     mask = s.mask > 0.0 ? (s.mask < 1.0 ? mask : 1.0) : 0.0;

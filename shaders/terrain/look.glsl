@@ -30,7 +30,7 @@ struct LookGround {
 float look_shore(vec3 water, Tangent t, LookGround ground)
 {
     float part = water.x;
-#if defined(HAS_DEPTH) && ELEVATION_COUNT > 0
+#if defined(HAS_DEPTH) && ELEVATION_COUNT > 0 && !defined(HAS_MEAN_SHORES)
     // No branch, but a loop that dry ground does not enter.
     int count = water.x > 0.0 ? 1 : 0;
     for (int i = 0; i < count; i++) {

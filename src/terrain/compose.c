@@ -4,6 +4,7 @@
 
 #include "gpu/pass.h"
 #include "shared/sea.glsl"
+#include "shared/shore.glsl"
 
 #include <math.h>
 
@@ -11,6 +12,20 @@
 static const double LEAST_PIXELS = 3;
 // Steeper than any ground.
 static const float NO_SLOPE = 1e9f;
+
+// Whether footprints that see no noise have the means of all masks, which need no shore.
+static bool has_mean_shores(const struct surface *surface)
+{
+    const struct terrain_noise *noise = &surface->noise;
+    bool has_means = noise_is_there(noise);
+    for (size_t i = 0; i < surface->counts[SURFACE_WATER] && has_means; i++) {
+        const double texel_m =
+            layer_finest_frame(&surface->layers[SURFACE_WATER][i])->texel_height *
+            surface->radius_m;
+        has_means = SHORE_MEAN_TEXELS * texel_m <= noise_unseen_m(noise);
+    }
+    return has_means;
+}
 
 static trl_result make_program(struct terrain_compose *compose, bool has_noise, size_t elevations)
 {
@@ -20,6 +35,9 @@ static trl_result make_program(struct terrain_compose *compose, bool has_noise, 
     defines.count -= noise_is_there(&surface->noise) && !has_noise ? 1 : 0; // it is the last
     if (has_noise && surface->biomes.count > 0) {
         defines.list[defines.count++] = "HAS_BIOMES";
+    }
+    if (!has_noise && has_mean_shores(surface)) {
+        defines.list[defines.count++] = "HAS_MEAN_SHORES";
     }
     const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
                                           .fragment = "terrain/surface.frag",

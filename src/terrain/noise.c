@@ -120,10 +120,16 @@ double noise_shortest_m(const struct terrain_noise *noise)
     return noise->wave_m[noise->ends[2] - 1];
 }
 
-bool noise_is_seen(const struct terrain_noise *noise, double footprint_m)
+double noise_unseen_m(const struct terrain_noise *noise)
 {
     // relief_seen: from two footprints on.
-    return noise_is_there(noise) && noise->ends[2] > 0 && footprint_m < noise->wave_m[0] / 2;
+    return noise_is_there(noise) && noise->ends[2] > 0 ? noise->wave_m[0] / 2 : 0;
+}
+
+bool noise_is_seen(const struct terrain_noise *noise, double footprint_m)
+{
+    const double unseen_m = noise_unseen_m(noise);
+    return unseen_m > 0 && footprint_m < unseen_m; // below a mountain's top footprints are negative
 }
 
 // Of a point in m from the planet's centre.

@@ -143,6 +143,9 @@ double noise_find_steepest(const struct terrain_noise *noise);
 // The shortest wavelength, m.
 double noise_shortest_m(const struct terrain_noise *noise);
 
+// The footprint in m from which on no octave is seen; 0: there is none.
+double noise_unseen_m(const struct terrain_noise *noise);
+
 // Whether pixels of this size on the ground show any octave.
 bool noise_is_seen(const struct terrain_noise *noise, double footprint_m);
 
