@@ -28,7 +28,8 @@ void main()
     vec4 own = texelFetch(u_reflection, texel, 0);
     vec4 sum = vec4(0.0);
     float weights = 0.0;
-    for (int n = 0; n < 25; n++) {
+    int count = own.a < 0.0 || spread == 0.0 ? 0 : 25; // no branch, as in ocean/facets.frag
+    for (int n = 0; n < count; n++) {
         ivec2 apart = ivec2(n % 5, n / 5) - 2;
         ivec2 place = clamp(texel + apart, ivec2(0), last);
         vec4 near = texelFetch(u_reflection, place, 0);

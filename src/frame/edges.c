@@ -19,12 +19,12 @@ trl_result edges_init(struct gpu *gpu, struct edges *out)
 {
     *out = (struct edges){.gpu = gpu};
     trl_result result =
-        make_program(gpu, "sky/layer.vert", "frame/edges_copy.frag", false, &out->copy);
+        make_program(gpu, "lib/layer.vert", "frame/edges_copy.frag", false, &out->copy);
     for (int i = 0; i < 2 && result == TRL_OK; i++) {
-        result = make_program(gpu, "sky/layer.vert", "frame/edges_mark.frag", i, &out->mark[i]);
+        result = make_program(gpu, "lib/layer.vert", "frame/edges_mark.frag", i, &out->mark[i]);
         if (result == TRL_OK) {
             result =
-                make_program(gpu, "sky/layer.vert", "frame/edges_blend.frag", i, &out->blend[i]);
+                make_program(gpu, "lib/layer.vert", "frame/edges_blend.frag", i, &out->blend[i]);
         }
     }
     if (result != TRL_OK) {

@@ -175,6 +175,9 @@ static trl_result make_passes(struct ground *ground, double sun_angular_radius_r
         result = terrain_compose_init(&ground->surface, &ground->compose);
     }
     if (result == TRL_OK) {
+        result = terrain_kinds_init(ground->gpu, &ground->kinds);
+    }
+    if (result == TRL_OK) {
         result = terrain_sky_view_init(&ground->shadow, &ground->sky_view);
     }
     return result;
@@ -240,6 +243,7 @@ void ground_finish(struct ground *ground)
     waves_finish(&ground->waves);
     terrain_sky_view_finish(&ground->sky_view);
     terrain_compose_finish(&ground->compose);
+    terrain_kinds_finish(&ground->kinds);
     terrain_shadow_finish(&ground->shadow);
     for (int i = 0; i < MESHER_MAX_KINDS; i++) {
         mesher_destroy(&ground->meshers[i]);
@@ -286,11 +290,13 @@ static trl_result make_targets(struct ground *ground)
                                             .colors = {{.texture = &ground->albedo},
                                                        {.texture = &ground->normal},
                                                        {.texture = &ground->lights},
-                                                       {.texture = &ground->region}}};
+                                                       {.texture = &ground->region}},
+                                            .depth.texture = &ground->depth};
     const struct gpu_target_desc sky_view = {
         .label = "sky view",
         .color_count = 2,
-        .colors = {{.texture = &ground->lights}, {.texture = &ground->region}}};
+        .colors = {{.texture = &ground->lights}, {.texture = &ground->region}},
+        .depth.texture = &ground->depth};
     trl_result result = gpu_target_init(ground->gpu, &mesh, &ground->mesh_target);
     if (result == TRL_OK) {
         result = gpu_target_init(ground->gpu, &surface, &ground->surface_target);
@@ -309,8 +315,11 @@ trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height)
     if (result == TRL_OK) {
         result = make_targets(ground);
     }
+    if (result == TRL_OK) {
+        result = terrain_kinds_resize(&ground->kinds, &ground->depth);
+    }
     if (result == TRL_OK && ground->has_waves) {
-        result = facets_resize(&ground->facets, width, height);
+        result = facets_resize(&ground->facets, &ground->depth);
     }
     if (result == TRL_OK && ground->has_waves) {
         result = sea_mesh_resize(&ground->sea_mesh, &ground->depth);
@@ -351,6 +360,35 @@ static trl_result draw_sea_mesh(struct ground *ground, const struct camera *came
     return extras->has_facets ? sea_mesh_draw(&ground->sea_mesh, &inputs) : TRL_OK;
 }
 
+static trl_result draw_surface(struct ground *ground, const struct camera *camera)
+{
+    const struct terrain_compose_inputs inputs = {camera, find_position(ground), &ground->shadow,
+                                                  ground->region_m};
+    trl_result result = terrain_kinds_draw(&ground->kinds, inputs.position);
+    if (result == TRL_OK) {
+        result = terrain_compose_draw(&ground->compose, &inputs, &ground->surface_target);
+    }
+    return result == TRL_OK && ground->has_waves
+               ? terrain_kinds_add_water(&ground->kinds, &ground->albedo)
+               : result;
+}
+
+static trl_result draw_facets(struct ground *ground, const struct camera *camera,
+                              const struct ground_extras *extras)
+{
+    const struct facets_inputs inputs = {.camera = camera,
+                                         .time_s = extras->time_s,
+                                         .position = find_position(ground),
+                                         .level = find_level(ground),
+                                         .albedo = &ground->albedo,
+                                         .lights = &ground->lights,
+                                         .water_depth = TERRAIN_WATER_DEPTH};
+    gpu_condition_begin(&ground->kinds.has_water);
+    const trl_result result = facets_draw(&ground->facets, &inputs);
+    gpu_condition_end(&ground->kinds.has_water);
+    return result;
+}
+
 trl_result ground_draw(struct ground *ground, const struct camera *camera,
                        const struct ground_extras *extras, struct frame_clock *clock)
 {
@@ -380,16 +418,11 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
     }
     if (result == TRL_OK) {
         frame_clock_part(clock, "surface");
-        const struct terrain_compose_inputs inputs = {camera, find_position(ground),
-                                                      &ground->shadow, ground->region_m};
-        result = terrain_compose_draw(&ground->compose, &inputs, &ground->surface_target);
+        result = draw_surface(ground, camera);
     }
     if (result == TRL_OK && ground->has_waves && extras->has_facets) {
         frame_clock_part(clock, "waves");
-        const struct facets_inputs inputs = {
-            camera,          extras->time_s, find_position(ground), find_level(ground),
-            &ground->albedo, &ground->lights};
-        result = facets_draw(&ground->facets, &inputs);
+        result = draw_facets(ground, camera, extras);
     }
     if (result == TRL_OK && extras->has_sky_view) {
         frame_clock_part(clock, "sky view");
@@ -409,6 +442,7 @@ struct sky_surface ground_surface(const struct ground *ground)
                                 .lights = &ground->lights,
                                 .region = &ground->region,
                                 .facets = ground->has_waves ? &ground->facets.texture : NULL,
+                                .has_water = ground->has_waves ? &ground->kinds.has_water : NULL,
                                 .lights_cd_m2 = ground->lights_cd_m2};
 }
 

@@ -24,6 +24,7 @@
 #include "scene/scene.h"
 #include "sky/sky.h"
 #include "terrain/compose.h"
+#include "terrain/kinds.h"
 #include "terrain/mesher.h"
 #include "terrain/sky_view.h"
 
@@ -40,6 +41,7 @@ struct ground {
     struct mesher *meshers[MESHER_MAX_KINDS]; // by trl_mesher; made when first asked for; none when
                                               // bare, as the passes below
     struct terrain_shadow shadow;
+    struct terrain_kinds kinds;
     struct terrain_compose compose;
     struct waves waves;
     struct waves_view *stand; // owned; room for ground_wave_m

@@ -9,7 +9,7 @@
 trl_result facets_init(struct gpu *gpu, const struct waves *waves, struct facets *out)
 {
     *out = (struct facets){.gpu = gpu};
-    const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+    const struct gpu_program_desc desc = {.vertex = "lib/layer.vert",
                                           .fragment = "ocean/facets.frag"};
     trl_result result = wave_texture_init(gpu, waves, &out->waves);
     if (result == TRL_OK) {
@@ -35,18 +35,20 @@ void facets_finish(struct facets *facets)
     *facets = (struct facets){0};
 }
 
-trl_result facets_resize(struct facets *facets, uint32_t width, uint32_t height)
+trl_result facets_resize(struct facets *facets, const struct gpu_texture *depth)
 {
     finish_target(facets);
     struct gpu_texture_desc desc = gpu_texture_desc_default();
     desc.label = "facets";
     desc.format = GPU_FORMAT_RGBA32F;
     desc.filter = GPU_FILTER_NEAREST;
-    desc.width = width;
-    desc.height = height;
+    desc.width = depth->width;
+    desc.height = depth->height;
     trl_result result = gpu_texture_init(facets->gpu, &desc, &facets->texture);
-    const struct gpu_target_desc target = {
-        .label = "facets", .color_count = 1, .colors[0].texture = &facets->texture};
+    const struct gpu_target_desc target = {.label = "facets",
+                                           .color_count = 1,
+                                           .colors[0].texture = &facets->texture,
+                                           .depth.texture = depth};
     if (result == TRL_OK) {
         result = gpu_target_init(facets->gpu, &target, &facets->target);
     }
@@ -78,7 +80,9 @@ trl_result facets_draw(struct facets *facets, const struct facets_inputs *in)
         (float)foam.first, (float)foam.width,
         (float)wave_texture_unseen_press(&facets->waves, fmax(height_m, 0) * pixel_rad)};
     gpu_program_set_vec3(program, "u_foam", ramp);
-    const struct gpu_pass pass = {.target = &facets->target};
+    gpu_program_set_float(program, "u_depth", in->water_depth);
+    const struct gpu_pass pass = {
+        .target = &facets->target, .state = {.depth = GPU_DEPTH_FARTHER}, .clears_color = true};
     gpu_pass_begin(facets->gpu, &pass);
     return gpu_draw_fullscreen(program, "facets of the sea");
 }

@@ -22,7 +22,7 @@ struct facets {
 // `waves` must outlive it. TRL_ERROR_MEMORY; TRL_ERROR_GPU.
 TRL_MUST_USE trl_result facets_init(struct gpu *gpu, const struct waves *waves, struct facets *out);
 void facets_finish(struct facets *facets);
-TRL_MUST_USE trl_result facets_resize(struct facets *facets, uint32_t width, uint32_t height);
+TRL_MUST_USE trl_result facets_resize(struct facets *facets, const struct gpu_texture *depth);
 
 struct facets_inputs {
     const struct camera *camera;
@@ -30,8 +30,9 @@ struct facets_inputs {
     const struct gpu_texture *position; // of frame/ground.h
     const struct gpu_texture *level;    // of the sea's mesh; NULL: all water is level
     const struct gpu_texture *albedo, *lights;
+    float water_depth;
 };
-// Draws all of the texture.
+// Draws where `depth` is nearer than `water_depth`, the rest is 0.
 TRL_MUST_USE trl_result facets_draw(struct facets *facets, const struct facets_inputs *inputs);
 
 #endif // OCEAN_FACETS_H

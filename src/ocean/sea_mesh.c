@@ -87,6 +87,8 @@ static trl_result make_mesh(struct sea_mesh *m)
 
 static trl_result make_programs(struct sea_mesh *m)
 {
+    const struct gpu_program_desc open = {.vertex = "lib/fullscreen.vert",
+                                          .fragment = "ocean/open.frag"};
     const struct gpu_program_desc crests = {.vertex = "lib/fullscreen.vert",
                                             .fragment = "ocean/crests.frag"};
     const struct gpu_program_desc join = {.vertex = "lib/fullscreen.vert",
@@ -94,6 +96,7 @@ static trl_result make_programs(struct sea_mesh *m)
     const struct gpu_program_desc mesh = {.vertex = "ocean/mesh.vert",
                                           .fragment = "ocean/mesh.frag"};
     trl_result result = height_programs_init(m->surface, "ocean/shore.frag", &m->shore_programs);
+    result = result == TRL_OK ? gpu_program_init(m->gpu, &open, &m->open_program) : result;
     result = result == TRL_OK ? gpu_program_init(m->gpu, &crests, &m->crest_program) : result;
     result = result == TRL_OK ? gpu_program_init(m->gpu, &join, &m->join_program) : result;
     return result == TRL_OK ? gpu_program_init(m->gpu, &mesh, &m->mesh_program) : result;
@@ -109,6 +112,7 @@ trl_result sea_mesh_init(const struct surface *surface, struct wave_texture *wav
     trl_result result = make_grid_targets(out);
     result = result == TRL_OK ? make_mesh(out) : result;
     result = result == TRL_OK ? make_programs(out) : result;
+    result = result == TRL_OK ? gpu_condition_init(out->gpu, &out->is_open) : result;
     if (result != TRL_OK) {
         sea_mesh_finish(out);
     }
@@ -127,6 +131,8 @@ void sea_mesh_finish(struct sea_mesh *m)
     finish_picture(m);
     gpu_mesh_finish(&m->mesh);
     height_programs_finish(&m->shore_programs);
+    gpu_condition_finish(&m->is_open);
+    gpu_program_finish(&m->open_program);
     gpu_program_finish(&m->crest_program);
     gpu_program_finish(&m->join_program);
     gpu_program_finish(&m->mesh_program);
@@ -187,6 +193,20 @@ static trl_result draw_shore(struct sea_mesh *m, const struct anchor *anchor)
     return gpu_draw_fullscreen(program, "shore of the sea");
 }
 
+// Counts the vertices that have open water.
+static trl_result find_open(struct sea_mesh *m)
+{
+    gpu_program_set_texture(&m->open_program, "u_shore", &m->shore);
+    const struct gpu_pass pass = {.target = &m->crest_target,
+                                  .viewport = {0, 0, SHORE_COLUMNS, SHORE_ROWS},
+                                  .state = {.hides_color = true}};
+    gpu_condition_count(&m->is_open);
+    gpu_pass_begin(m->gpu, &pass);
+    const trl_result result = gpu_draw_fullscreen(&m->open_program, "open water");
+    gpu_condition_counted(&m->is_open);
+    return result;
+}
+
 static trl_result draw_crests(struct sea_mesh *m)
 {
     struct gpu_program *program = &m->crest_program;
@@ -227,13 +247,18 @@ static void set_view(struct sea_mesh *m, const struct camera *c, const struct an
     gpu_program_set_float(program, "u_planet_radius", (float)m->surface->radius_m);
 }
 
-static trl_result draw_joined(struct sea_mesh *m, const struct sea_mesh_inputs *in)
+static trl_result draw_ground(struct sea_mesh *m, const struct sea_mesh_inputs *in)
 {
     gpu_program_set_texture(&m->join_program, "u_ground", in->ground);
+    const struct gpu_pass pass = {.target = &m->target};
+    gpu_pass_begin(m->gpu, &pass);
+    return gpu_draw_fullscreen(&m->join_program, "ground below the sea");
+}
+
+static trl_result draw_sea(struct sea_mesh *m, const struct sea_mesh_inputs *in)
+{
+    trl_result result = TRL_OK;
     gpu_program_set_texture(&m->mesh_program, "u_ground", in->ground);
-    const struct gpu_pass join = {.target = &m->target};
-    gpu_pass_begin(m->gpu, &join);
-    trl_result result = gpu_draw_fullscreen(&m->join_program, "ground below the sea");
     const struct depth_ranges ranges = depth_ranges_make(m->surface, in->camera);
     for (int i = 0; i < ranges.count && result == TRL_OK; i++) {
         const struct gpu_pass pass = {.target = &m->target,
@@ -267,7 +292,12 @@ trl_result sea_mesh_draw(struct sea_mesh *m, const struct sea_mesh_inputs *in)
     trl_result result = wave_texture_update(m->waves, in->camera->position_m, in->time_s);
     centre_rings(m);
     result = result == TRL_OK ? draw_shore(m, &anchor) : result;
+    result = result == TRL_OK ? find_open(m) : result;
+    result = result == TRL_OK ? draw_ground(m, in) : result;
+    gpu_condition_begin(&m->is_open);
     result = result == TRL_OK ? draw_crests(m) : result;
     set_view(m, in->camera, &anchor);
-    return result == TRL_OK ? draw_joined(m, in) : result;
+    result = result == TRL_OK ? draw_sea(m, in) : result;
+    gpu_condition_end(&m->is_open);
+    return result;
 }

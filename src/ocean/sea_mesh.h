@@ -7,6 +7,7 @@
 // nothing. docs/physics.md, *Waves that stand out*.
 
 #include "base/camera.h"
+#include "gpu/condition.h"
 #include "gpu/mesh.h"
 #include "gpu/target.h"
 #include "ocean/wave_texture.h"
@@ -32,7 +33,8 @@ struct sea_mesh {
     struct wave_texture *waves;
     double wave_height_m;
     struct height_programs shore_programs;
-    struct gpu_program crest_program, join_program, mesh_program;
+    struct gpu_program open_program, crest_program, join_program, mesh_program;
+    struct gpu_condition is_open; // some vertex is
     struct gpu_texture shore, crests, normals;
     struct gpu_target shore_target, crest_target;
     struct gpu_mesh mesh;

@@ -131,7 +131,7 @@ static trl_result draw_disc(struct bodies *bodies, struct body *body,
     }
     trl_result result = update_light(bodies, body);
     if (result == TRL_OK && !bodies->program.name) {
-        const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
+        const struct gpu_program_desc desc = {.vertex = "lib/layer.vert",
                                               .fragment = "sky/body.frag"};
         result = gpu_program_init(bodies->gpu, &desc, &bodies->program);
     }

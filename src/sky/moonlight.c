@@ -153,7 +153,7 @@ static trl_result make_program(const struct moonlight *moonlight, const char *fr
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", moonlight->maps.atmosphere->peaked.count);
     const char *const defines[] = {peaked, "MOON", define, "SEA"};
-    const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
+    const struct gpu_program_desc desc = {.vertex = "lib/layer.vert",
                                           .fragment = fragment,
                                           .defines = defines,
                                           .define_count = has_sea  ? 4
@@ -280,7 +280,10 @@ trl_result moonlight_draw(struct moonlight *moonlight, const struct sky_pixels *
     if (result == TRL_OK) {
         result = draw_kind(moonlight, pixels, SKY_KIND_GROUND, &moonlit);
     }
-    return result == TRL_OK && sea_water_is_seen(&moonlight->sea->water, view)
-               ? draw_kind(moonlight, pixels, SKY_KIND_SEA, &moonlit)
-               : result;
+    if (result == TRL_OK && sea_water_is_seen(&moonlight->sea->water, view)) {
+        gpu_condition_begin(view->surface.has_water);
+        result = draw_kind(moonlight, pixels, SKY_KIND_SEA, &moonlit);
+        gpu_condition_end(view->surface.has_water);
+    }
+    return result;
 }

@@ -15,7 +15,7 @@ trl_result sky_pixels_init(const struct sky_desc *desc, double disc_rad, struct 
                                .disc_rad = disc_rad,
                                .shown_rad = disc_rad};
     const char *const surface[] = {"SURFACE", "SEA"};
-    struct gpu_program_desc program = {.vertex = "sky/layer.vert", .fragment = "sky/sort.frag"};
+    struct gpu_program_desc program = {.vertex = "lib/layer.vert", .fragment = "sky/sort.frag"};
     trl_result result = gpu_program_init(desc->gpu, &program, &out->sort_bare);
     if (result == TRL_OK) {
         program.defines = surface;

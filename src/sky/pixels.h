@@ -4,7 +4,7 @@
 #define SKY_PIXELS_H
 // What models of the sky share. Pixels are first sorted into ground, air and space, and each kind
 // is drawn by a program of its own with a depth test: a software rasteriser runs both sides of a
-// branch. Programs have the vertex shader sky/layer.vert, include sky/ray.glsl, and for the ground
+// branch. Programs have the vertex shader lib/layer.vert, include sky/ray.glsl, and for the ground
 // sky/ground.glsl (with SURFACE where there are surface buffers).
 
 #include "scatter/bands.h"

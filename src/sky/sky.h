@@ -11,6 +11,7 @@
 //     out  kinds      DEPTH32F    scratch; see sort.frag
 
 #include "base/camera.h"
+#include "gpu/condition.h"
 #include "gpu/pass.h"
 #include "scatter/medium.h"
 #include "sky/body_light.h"
@@ -42,8 +43,9 @@ struct sky_moon {
 struct sky_surface {
     const struct gpu_texture *position; // NULL: bare sphere, and the others too
     const struct gpu_texture *albedo, *normal, *lights, *region; // see frame/ground.h
-    const struct gpu_texture *facets; // of open water, as of ocean/facets.h; NULL: no ocean
-    double lights_cd_m2;              // luminance of white lights
+    const struct gpu_texture *facets;      // of open water, as of ocean/facets.h; NULL: no ocean
+    const struct gpu_condition *has_water; // some pixel has; NULL: not known
+    double lights_cd_m2;                   // luminance of white lights
 };
 
 // How the model single draws a bare sphere.

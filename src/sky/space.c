@@ -35,7 +35,7 @@ static trl_result make_background(struct space *space)
 {
     const char *const bare[] = {"GROUND"};
     const char *const surface[] = {"GROUND", "SURFACE"};
-    struct gpu_program_desc desc = {.vertex = "sky/layer.vert", .fragment = "sky/background.frag"};
+    struct gpu_program_desc desc = {.vertex = "lib/layer.vert", .fragment = "sky/background.frag"};
     trl_result result = gpu_program_init(space->gpu, &desc, &space->background);
     if (result == TRL_OK) {
         desc.defines = bare;

@@ -62,7 +62,7 @@ static trl_result make_program(struct spectral_sea *sea, const struct atmosphere
     if (shades & SEA_CLOUDED) {
         defines[count++] = "CLOUDS";
     }
-    const struct gpu_program_desc desc = {.vertex = "sky/layer.vert",
+    const struct gpu_program_desc desc = {.vertex = "lib/layer.vert",
                                           .fragment = "sky/spectral/sea.frag",
                                           .defines = defines,
                                           .define_count = count};

@@ -140,7 +140,8 @@ trl_result terrain_compose_draw(struct terrain_compose *compose,
                               depth_m < 0 ? -1 : (float)sea_depth_code(depth_m));
     }
     gpu_program_set_float(program, "u_region", (float)log2(fmax(in->region_m, 1e-3)));
-    const struct gpu_pass pass = {.target = target};
+    const struct gpu_pass pass = {
+        .target = target, .state = {.depth = GPU_DEPTH_FARTHER}, .clears_color = true};
     gpu_pass_begin(compose->gpu, &pass);
     return gpu_draw_fullscreen(program, "terrain surface");
 }

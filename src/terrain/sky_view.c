@@ -178,7 +178,8 @@ trl_result terrain_sky_view_draw(struct terrain_sky_view *view,
     gpu_program_set_texture(program, "u_light0", &view->lights[0]);
     gpu_program_set_texture(program, "u_light1", &view->lights[1]);
     gpu_program_set_float(program, "u_light_scale", (float)(1.0 - 1.0 / LIGHT_SIDE));
-    const struct gpu_pass pass = {.target = target, .state = {.blend = GPU_BLEND_ADD}};
+    const struct gpu_pass pass = {.target = target,
+                                  .state = {.depth = GPU_DEPTH_FARTHER, .blend = GPU_BLEND_ADD}};
     gpu_pass_begin(view->gpu, &pass);
     return gpu_draw_fullscreen(program, "sky view");
 }

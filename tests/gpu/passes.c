@@ -3,6 +3,8 @@
 // What a pass sets is what is drawn with, whatever was drawn before.
 #include "fixture.h"
 
+#include "gpu/condition.h"
+
 #include <epoxy/gl.h>
 #include <math.h>
 
@@ -294,6 +296,49 @@ static void patches_are_tessellated_or_refused(void **state)
     gpu_program_finish(&program);
 }
 
+// Red after a pass, its clear included, that waits on whether a square at that depth was seen.
+static float draw_after(struct fixture *f, struct gpu_condition *condition, float depth)
+{
+    const struct instance instance = {depth, 1};
+    struct gpu_program program = make_program(f, "square.vert", "weight.frag");
+    struct gpu_mesh mesh = make_square(f, &instance, 1);
+    const struct gpu_pass counted = {.target = &f->target,
+                                     .state = {.depth = GPU_DEPTH_NEARER},
+                                     .clears_color = true,
+                                     .clears_depth = true,
+                                     .depth = 0.5f};
+    const struct gpu_pass second = {
+        .target = &f->target, .clears_color = true, .color = {0.25f, 0, 0, 0}};
+    gpu_condition_count(condition);
+    gpu_pass_begin(f->gpu, &counted);
+    assert_int_equal(gpu_draw_mesh(&program, &mesh, 1, "counted"), TRL_OK);
+    gpu_condition_counted(condition);
+    gpu_condition_begin(condition);
+    gpu_pass_begin(f->gpu, &second);
+    gpu_condition_end(condition);
+    gpu_mesh_finish(&mesh);
+    gpu_program_finish(&program);
+    return red_at(f, 1, 1);
+}
+
+static void draws_are_left_out_when_no_pixel_was_seen(void **state)
+{
+    struct fixture *f = *state;
+    struct gpu_condition condition;
+    assert_int_equal(gpu_condition_init(f->gpu, &condition), TRL_OK);
+    gpu_condition_begin(&condition); // has counted nothing yet: all is drawn
+    gpu_condition_end(&condition);
+    gpu_condition_begin(NULL);
+    gpu_condition_end(NULL);
+    for (int twice = 0; twice < 2; twice++) {
+        assert_true(draw_after(f, &condition, 0.75f) == 0.25f);
+        // What was cleared before; OpenGL ES draws always.
+        assert_true(draw_after(f, &condition, 0.25f) == (f->gpu->caps.is_es ? 0.25f : 0));
+    }
+    gpu_condition_finish(&condition);
+    gpu_condition_finish(&condition);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -307,6 +352,7 @@ int main(void)
         cmocka_unit_test(srgb_targets_take_linear_values),
         cmocka_unit_test(wrong_targets_and_meshes_are_refused),
         cmocka_unit_test(patches_are_tessellated_or_refused),
+        cmocka_unit_test(draws_are_left_out_when_no_pixel_was_seen),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }

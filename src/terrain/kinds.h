@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#ifndef TERRAIN_KINDS_H
+#define TERRAIN_KINDS_H
+// Which pixels of a picture show ground, and which of those water: a depth that passes test
+// against. A software rasteriser saves nothing by branches, but does not enter a shader where no
+// pixel passes.
+
+#include "gpu/condition.h"
+#include "gpu/pass.h"
+
+struct terrain_kinds {
+    struct gpu *gpu;
+    struct gpu_program ground, water;
+    struct gpu_target target;       // the depth alone
+    struct gpu_condition has_water; // of the last picture
+};
+
+// TRL_ERROR_MEMORY; TRL_ERROR_GPU.
+TRL_MUST_USE trl_result terrain_kinds_init(struct gpu *gpu, struct terrain_kinds *out);
+void terrain_kinds_finish(struct terrain_kinds *kinds);
+
+// Draws to this depth, DEPTH32F, from now on; it must outlive them. NULL: to none.
+TRL_MUST_USE trl_result terrain_kinds_resize(struct terrain_kinds *kinds,
+                                             const struct gpu_texture *depth);
+
+// Overwrites the depth: passes of lib/fullscreen.vert with GPU_DEPTH_FARTHER then draw where there
+// is ground. `position` is that of frame/ground.h.
+TRL_MUST_USE trl_result terrain_kinds_draw(struct terrain_kinds *kinds,
+                                           const struct gpu_texture *position);
+
+// Adds the water: passes of lib/layer.vert at TERRAIN_WATER_DEPTH with GPU_DEPTH_FARTHER then draw
+// where there is some.
+#define TERRAIN_WATER_DEPTH 0.875f
+TRL_MUST_USE trl_result terrain_kinds_add_water(struct terrain_kinds *kinds,
+                                                const struct gpu_texture *albedo);
+
+#endif // TERRAIN_KINDS_H
