@@ -175,6 +175,59 @@ static void lights_at_night_are_as_bright_as_the_scene_says(void **state)
     }
 }
 
+// A place of a flight down to the plateau's edge.
+static void draw_flying(trl_renderer *renderer, int frame, float *radiance)
+{
+    trl_view view = trl_view_default();
+    view.latitude_rad = -0.02 * frame;
+    view.longitude_rad = 1 + 0.01 * frame;
+    view.altitude_mode = TRL_ALTITUDE_SPHERE;
+    view.altitude_m = 4e5 / (1 + 3 * frame);
+    view.pitch_rad = -0.3;
+    view.sun_mode = TRL_SUN_LOCAL;
+    view.sun_latitude_or_elevation_rad = 0.5;
+    assert_int_equal(trl_renderer_draw(renderer, &view, WIDTH, HEIGHT, 0), TRL_OK);
+    assert_int_equal(trl_renderer_read_radiance(renderer, radiance), TRL_OK);
+}
+
+// As if it had been there from the start. The projective mesh looks at the frame before for its
+// reference sphere, so a pixel at a silhouette may differ.
+static void meshers_are_changed_in_flight(void **state)
+{
+    const struct setup *s = *state;
+    static float flown[4 * WIDTH * HEIGHT], alone[4 * WIDTH * HEIGHT];
+    int kinds = 0;
+    while (trl_mesher_name((trl_mesher)kinds)) {
+        kinds++;
+    }
+    trl_renderer *other = NULL; // makes each mesher for the one frame it is asked for
+    assert_int_equal(create(s->f, s->scene, &other), TRL_OK);
+    for (int frame = 0; frame < 2 * kinds; frame++) {
+        const trl_mesher mesher = (trl_mesher)(frame % kinds);
+        if (trl_renderer_set_mesher(s->renderer, mesher) != TRL_OK) {
+            continue; // not on this GPU
+        }
+        draw_flying(s->renderer, frame, flown);
+        if (frame < kinds) {
+            continue;
+        }
+        assert_int_equal(trl_renderer_set_mesher(other, mesher), TRL_OK);
+        draw_flying(other, frame, alone);
+        int different = 0;
+        for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
+            const float a = flown[4 * i + 1], b = alone[4 * i + 1];
+            different += !(fabsf(a - b) <= 0.02f * fmaxf(fabsf(a), fabsf(b)));
+        }
+        if (different > 0) {
+            printf("%s, frame %d: %d pixels\n", trl_mesher_name(mesher), frame, different);
+        }
+        assert_true(different <= WIDTH * HEIGHT / 200);
+    }
+    trl_renderer_destroy(&other);
+    assert_int_equal(trl_renderer_set_mesher(s->renderer, trl_renderer_desc_default().mesher),
+                     TRL_OK);
+}
+
 static void a_missing_raster_is_one_line_unless_it_is_optional(void **state)
 {
     const struct setup *s = *state;
@@ -197,6 +250,7 @@ int main(void)
         cmocka_unit_test(cameras_stand_on_the_raster),
         cmocka_unit_test(colours_are_those_of_the_raster),
         cmocka_unit_test(lights_at_night_are_as_bright_as_the_scene_says),
+        cmocka_unit_test(meshers_are_changed_in_flight),
         cmocka_unit_test(a_missing_raster_is_one_line_unless_it_is_optional),
     };
     return cmocka_run_group_tests_name("ground", tests, set_up, tear_down);
