@@ -20,6 +20,8 @@ uniform sampler2D u_region; // the same: albedo around; a: sky view factor
 #endif
 
 #ifdef CLOUDS
+#include "sky/deck.glsl"
+
 uniform sampler2D u_cloud_shade; // what clouds leave of the star, see cloud/march.h
 
 // Of every second pixel: of the four around those that are about as far away.
@@ -49,6 +51,13 @@ float cloud_direct(float shade)
 {
     return exp((1.0 - 1.0 / shade) * (1.0 / CLOUD_DIFFUSE_DEPTH)) / shade;
 }
+
+// Under clouds, x: what is left of light from everywhere; y: what they send back of the ground's.
+vec2 cloud_sky(vec3 place, float altitude)
+{
+    Deck deck = deck_overhead(place, altitude);
+    return vec2(deck_left(deck), deck_back(deck));
+}
 #else
 float cloud_shade(float distance_m)
 {
@@ -58,6 +67,11 @@ float cloud_shade(float distance_m)
 float cloud_direct(float shade)
 {
     return 1.0;
+}
+
+vec2 cloud_sky(vec3 place, float altitude)
+{
+    return vec2(1.0, 0.0);
 }
 #endif
 

@@ -56,6 +56,7 @@ trl_result cloud_march_init(struct gpu *gpu, const struct cloud_field *field,
                             struct cloud_march *out)
 {
     *out = (struct cloud_march){.gpu = gpu, .field = field};
+    cloud_deck_init(gpu, &out->deck);
     trl_result result = upload_noise(out);
     if (result == TRL_OK) {
         result = upload_map(out);
@@ -94,6 +95,7 @@ void cloud_march_finish(struct cloud_march *march)
 {
     finish_targets(march);
     finish_programs(march);
+    cloud_deck_finish(&march->deck);
     gpu_texture_finish(&march->noise);
     gpu_texture_finish(&march->map);
     *march = (struct cloud_march){0};
@@ -205,9 +207,24 @@ static trl_result prepare(struct cloud_march *m, const struct cloud_view *view)
     return result == TRL_OK ? fit_targets(m, view->target) : result;
 }
 
+static trl_result draw_deck(struct cloud_march *march, const struct cloud_view *view)
+{
+    struct cloud_deck *deck = &march->deck;
+    const trl_result result = cloud_deck_begin(deck, march->field, view->camera);
+    if (result != TRL_OK) {
+        return result;
+    }
+    view->air->bind(view->air->self, false, &deck->program);
+    cloud_march_set_field(march, view->camera, &deck->program);
+    return cloud_deck_draw(deck);
+}
+
 trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view)
 {
-    const trl_result result = prepare(march, view);
+    trl_result result = prepare(march, view);
+    if (result == TRL_OK) {
+        result = draw_deck(march, view);
+    }
     if (result != TRL_OK) {
         return result;
     }

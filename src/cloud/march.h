@@ -14,6 +14,7 @@
 //          radiance            with clouds
 
 #include "base/camera.h"
+#include "cloud/deck.h"
 #include "cloud/field.h"
 #include "cloud/history.h"
 #include "gpu/pass.h"
@@ -41,6 +42,7 @@ struct cloud_march {
     struct gpu_target clouds_target[2], joined_target, shades_target;
     int now; // which of both is this frame's
     struct cloud_history history;
+    struct cloud_deck deck;
 };
 
 // Uploads noise and map. The field must outlive it. TRL_ERROR_GPU, TRL_ERROR_MEMORY,
@@ -62,7 +64,7 @@ struct cloud_view {
     bool accumulates; // marches a quarter, with the rest from frames before where it was seen
 };
 
-// Before the sky: fills `shades`.
+// Before the sky: fills `shades` and the map of `deck`.
 TRL_MUST_USE trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view);
 // After it.
 TRL_MUST_USE trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *view);

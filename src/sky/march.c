@@ -48,10 +48,10 @@ void sky_march_finish(struct sky_march *march)
 }
 
 static trl_result make_program(struct sky_march *m, const char *fragment,
-                               const char *const defines[4], struct gpu_program *out)
+                               const char *const defines[5], struct gpu_program *out)
 {
     size_t count = 0;
-    while (count < 3 && defines[count]) {
+    while (defines[count]) {
         count++;
     }
     const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
@@ -62,35 +62,44 @@ static trl_result make_program(struct sky_march *m, const char *fragment,
 }
 
 static trl_result make_programs(struct sky_march *m, const struct sky_march_source *source,
-                                bool is_bare)
+                                const struct sky_view *view)
 {
-    if (m->is_made && m->is_bare == is_bare && m->has_eclipse == (source->eclipse != NULL)) {
+    const bool is_bare = sky_view_is_bare(view);
+    const bool has_eclipse = source->eclipse != NULL;
+    const bool has_clouds = view->cloud_deck != NULL;
+    if (m->is_made && m->is_bare == is_bare && m->has_eclipse == has_eclipse &&
+        m->has_clouds == has_clouds) {
         return TRL_OK;
     }
     finish_programs(m);
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", source->peaked_count);
-    const char *const surface = is_bare ? NULL : "SURFACE";
-    const char *const eclipse = source->eclipse ? "ECLIPSE" : NULL;
+    const char *const surface[5] = {is_bare ? NULL : "SURFACE"};
     const char *const march = "sky/spectral/march.frag";
-    trl_result result = make_program(m, "sky/spectral/march_begin.frag",
-                                     (const char *const[4]){surface}, &m->begin);
+    const char *step[5] = {peaked}, *space[5] = {peaked, "TO_SPACE"};
+    size_t count = 1;
+    if (has_eclipse) {
+        space[count + 1] = step[count] = "ECLIPSE";
+        count++;
+    }
+    if (has_clouds) {
+        space[count + 1] = step[count] = "CLOUDS";
+        count++;
+    }
+    step[count] = surface[0];
+    trl_result result = make_program(m, "sky/spectral/march_begin.frag", surface, &m->begin);
     if (result == TRL_OK) {
-        result = make_program(
-            m, march,
-            (const char *const[4]){peaked, surface ? surface : eclipse, surface ? eclipse : NULL},
-            &m->step);
+        result = make_program(m, march, step, &m->step);
     }
     if (result == TRL_OK) {
-        result =
-            make_program(m, march, (const char *const[4]){peaked, "TO_SPACE", eclipse}, &m->space);
+        result = make_program(m, march, space, &m->space);
     }
     if (result == TRL_OK) {
-        result =
-            make_program(m, "sky/spectral/march_fill.frag", (const char *const[4]){NULL}, &m->fill);
+        result = make_program(m, "sky/spectral/march_fill.frag", (const char *[5]){NULL}, &m->fill);
     }
     m->is_bare = is_bare;
-    m->has_eclipse = source->eclipse != NULL;
+    m->has_eclipse = has_eclipse;
+    m->has_clouds = has_clouds;
     m->is_made = result == TRL_OK;
     return result;
 }
@@ -164,13 +173,13 @@ static trl_result fit_maps(struct sky_march *m, const struct gpu_target *picture
     return result;
 }
 
-// From where the air begins to the farthest ground that can be seen.
+// From where the air begins to the farthest ground and clouds that can be seen.
 static void find_range(struct sky_march *m, const struct sky_march_source *source,
                        const struct sky_view *view)
 {
     const double eye_m = sky_pixels_eye_radius(source->pixels, view->camera);
     const double ground_m = m->ground_radius_m;
-    const double peak_m = ground_m + fmax(view->shadow.highest_m, 0);
+    const double peak_m = ground_m + fmax(fmax(view->shadow.highest_m, view->cloud_top_m), 0);
     m->near_m = fmax(eye_m - m->top_radius_m, 0);
     m->far_m = sqrt((eye_m - ground_m) * (eye_m + ground_m)) +
                sqrt((peak_m - ground_m) * (peak_m + ground_m)) + 1000;
@@ -233,6 +242,9 @@ static void set_program(struct sky_march *m, const struct sky_march_source *sour
     if (m->has_eclipse) {
         sky_eclipse_set(source->pixels, source->eclipse, view->camera, program);
     }
+    if (m->has_clouds) {
+        sky_pixels_set_deck(program, view);
+    }
     if (!m->is_bare) {
         view->shadow.bind(view->shadow.self, view->camera, program);
     }
@@ -241,7 +253,7 @@ static void set_program(struct sky_march *m, const struct sky_march_source *sour
 trl_result sky_march_draw(struct sky_march *m, const struct sky_march_source *source,
                           const struct sky_view *view)
 {
-    trl_result result = make_programs(m, source, sky_view_is_bare(view));
+    trl_result result = make_programs(m, source, view);
     if (result == TRL_OK) {
         result = fit_maps(m, view->target, find_cell(source, view));
     }

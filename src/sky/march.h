@@ -26,7 +26,7 @@ struct sky_march {
     struct gpu *gpu;
     double top_radius_m, ground_radius_m;
     bool is_made; // with the programs for:
-    bool is_bare, has_eclipse;
+    bool is_bare, has_eclipse, has_clouds;
     struct gpu_program begin, step, space, fill;
     struct gpu_texture lit[2], all[2], steps, share; // of the last picture's size
     struct gpu_target sums[2], layer;

@@ -119,6 +119,12 @@ trl_result sky_make_map(struct gpu *gpu, const char *label, const uint32_t size[
     return gpu_texture_init(gpu, &desc, out);
 }
 
+void sky_pixels_set_deck(struct gpu_program *program, const struct sky_view *view)
+{
+    gpu_program_set_texture(program, "u_deck", view->cloud_deck);
+    gpu_program_set_vec4(program, "u_deck_map", view->cloud_deck_place);
+}
+
 void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *program,
                          const struct sky_view *view)
 {

@@ -40,6 +40,9 @@ double sky_pixels_eye_radius(const struct sky_pixels *pixels, const struct camer
 void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *program,
                          const struct sky_view *view);
 
+// The uniforms of deck.glsl, where there are clouds.
+void sky_pixels_set_deck(struct gpu_program *program, const struct sky_view *view);
+
 // First of all: clears the target and marks each pixel's kind.
 TRL_MUST_USE trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct sky_view *view);
 

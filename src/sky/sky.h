@@ -71,6 +71,8 @@ struct sky_view {
     struct sky_spheres spheres;
 
     const struct gpu_texture *cloud_shade; // RG32F, see cloud/march.h; NULL: no clouds
+    const struct gpu_texture *cloud_deck;  // as cloud/deck.h makes it, where there is cloud_shade
+    const float *cloud_deck_place;         // and its u_deck_map
     double cloud_top_m;                    // altitude of the highest
     struct sky_shadow shadow;              // of the body that is main, else of the star
     struct sky_moon moon;

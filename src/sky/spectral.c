@@ -229,8 +229,9 @@ static bool spectral_is_settled(const void *self)
 static struct shades find_shades(const struct spectral *sky, const struct sky_view *view)
 {
     const bool has_eclipse = sky_eclipse_find(&sky->pixels, view->camera) >= 0;
-    return (struct shades){.has_march = view->air == TRL_AIR_MARCH &&
-                                        (has_eclipse || !sky_view_is_bare(view)),
+    return (struct shades){.has_march =
+                               view->air == TRL_AIR_MARCH &&
+                               (has_eclipse || view->cloud_shade || !sky_view_is_bare(view)),
                            .has_eclipse = has_eclipse,
                            .has_clouds = view->cloud_shade != NULL};
 }
@@ -327,6 +328,7 @@ static trl_result draw_kind(struct spectral *sky, struct gpu_program *program, e
     }
     if (shades.has_clouds && (kind == SKY_KIND_GROUND || kind == SKY_KIND_SEA)) {
         gpu_program_set_texture(program, "u_cloud_shade", view->cloud_shade);
+        sky_pixels_set_deck(program, view);
     }
     return sky_pixels_draw(&sky->pixels, program, kind, view);
 }

@@ -140,6 +140,31 @@ static double brightness_of(const struct drawer *d, double altitude_m, double pi
     return mean;
 }
 
+// Through a long lens.
+static double brightness_far(const struct drawer *d, double altitude_m, double pitch_deg)
+{
+    trl_view view = look(altitude_m, pitch_deg);
+    view.vertical_fov_rad = 0.5 * DEGREE;
+    float *rgba = draw(d, &view);
+    const double mean = mean_green(rgba);
+    free(rgba);
+    return mean;
+}
+
+// The eye sees ground 30 km away behind air that is as dim as it is, below the deck; over it air
+// has the deck's light beside the star's.
+static void check_air(const struct drawer *clear, const struct drawer *deck, double ground)
+{
+    const double air = brightness_far(deck, 500, -1) / brightness_far(clear, 500, -1);
+    if (!(air > 0.6 * ground && air < 1.6 * ground)) {
+        fail_msg("below a deck the ground has %.3f of its light, the air %.3f", ground, air);
+    }
+    const double above = brightness_far(deck, 5000, 10) / brightness_far(clear, 5000, 10);
+    if (!(above > 1.1 && above < 2.5)) {
+        fail_msg("over a deck the sky has %.3f of its light", above);
+    }
+}
+
 // The ground reflects 0.1, a thick deck some 0.7; between them air is thin.
 static void a_deck_is_bright_from_above_and_dims_the_ground_below(void **state)
 {
@@ -159,6 +184,7 @@ static void a_deck_is_bright_from_above_and_dims_the_ground_below(void **state)
     if (!(ratio > 0.1 && ratio < 0.6)) {
         fail_msg("below a deck the ground has %.3f of its light", ratio);
     }
+    check_air(&clear, &deck, ratio);
     finish_drawer(&clear);
     finish_drawer(&deck);
 }

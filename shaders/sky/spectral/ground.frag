@@ -107,6 +107,10 @@ Light light_ground(Ray ray, Ground ground, Air air)
 #endif
     level = lit;
 #endif
+    // Clouds let through as much of all light, and send back as much of the ground's.
+    vec2 cloudy = cloud_sky(ray.direction * ground.distance_m, ground.altitude_m);
+    sky *= cloudy.x;
+    level *= cloudy.x;
     float incidence = max(dot(ground.normal, u_sun + up * (height - sun_mu)), 0.0);
     Light light;
 #ifdef SURFACE
@@ -115,15 +119,16 @@ Light light_ground(Ray ray, Ground ground, Air air)
     vec4 region = bands_of(ground.region);
     vec4 above = textureLod(u_air_albedo, vec2(0.5, altitude), 0.0);
     vec4 whole = textureLod(u_air_albedo, vec2(0.5, 0.0), 0.0);
-    vec4 gain =
-        (1.0 - above * min(rising / max(level, vec4(1.0e-20)), vec4(1.0))) / (1.0 - above * region);
+    rising *= cloudy.x;
+    vec4 gain = (1.0 - above * min(rising / max(level, vec4(1.0e-20)), vec4(1.0))) /
+                (1.0 - (above + cloudy.y) * region);
     vec4 around = region * level * gain;
     sky += level * (gain - 1.0);
     // A slope sees a part of the sky, and for the rest the ground around it, among terrain itself.
     float open = ground.open;
     light.bounced = (around - rising) * (1.0 / SHARED_PI) * air.way *
                     textureLod(u_bounce, air.at, 0.0) * (1.0 - above) / (1.0 - whole);
-    float seen = ground.around_lit < 0.0 ? max(height, 0.0) : ground.around_lit;
+    float seen = (ground.around_lit < 0.0 ? max(height, 0.0) : ground.around_lit) * cloudy.x;
     around = region * (star * seen + sky * open) * sent_again(open, region);
 #else
     vec4 own = u_ground_albedo;

@@ -12,11 +12,17 @@
 // validate: PEAKED_COUNT 3; SURFACE; TO_SPACE
 // validate: PEAKED_COUNT 1; ECLIPSE
 // validate: PEAKED_COUNT 1; TO_SPACE; ECLIPSE
+// validate: PEAKED_COUNT 1; TO_SPACE; CLOUDS
+// validate: PEAKED_COUNT 1; SURFACE; CLOUDS
+// validate: PEAKED_COUNT 1; CLOUDS
 // validate: PEAKED_COUNT 1; SURFACE; ECLIPSE
 
 #include "sky/spectral/air.glsl"
 #ifdef ECLIPSE
 #include "sky/eclipse.glsl"
+#endif
+#ifdef CLOUDS
+#include "sky/deck.glsl"
 #endif
 #ifdef SURFACE
 #include "terrain/shadow.glsl"
@@ -45,6 +51,7 @@ layout(location = 2) out vec4 out_share; // of XYZ; alpha: as above
 
 // The terrain's edge is looked for at this many places of a step; between them it is straight.
 const int SHADOW_PARTS = 4;
+const int CLOUD_PARTS = 2;
 // Of what is left of the way into space.
 #ifdef ECLIPSE
 const int SPACE_PARTS = 32;
@@ -52,8 +59,11 @@ const int SPACE_PARTS = 32;
 const int SPACE_PARTS = 8;
 #endif
 
+const float EVEN_PHASE = 0.25 / SHARED_PI;
+
 struct Source {
     vec3 first, multiple; // XYZ per m
+    vec3 even;            // as first, were the star's light to come from everywhere alike
 };
 
 Source source_at(Ray ray, float azimuth, float row, float distance_m)
@@ -64,22 +74,30 @@ Source source_at(Ray ray, float azimuth, float row, float distance_m)
     vec3 at = air_map((mix(texel, 1.0, depth) - 0.5 * texel) / (1.0 - texel), azimuth, row);
     float smooth_phase = phase_rayleigh(ray.nu);
     Source source;
-    source.first = exp(textureLod(u_source0, at, 0.0).xyz) * smooth_phase;
+    vec3 smooth_first = exp(textureLod(u_source0, at, 0.0).xyz);
+    source.first = smooth_first * smooth_phase;
+    source.even = smooth_first * EVEN_PHASE;
     source.multiple = exp(textureLod(u_source_multiple, at, 0.0).xyz) * smooth_phase;
 #if PEAKED_COUNT > 0
     vec4 phase = peaked_phase(ray.nu);
-    source.first += exp(textureLod(u_source1, at, 0.0).xyz) * phase.x;
+    vec3 first1 = exp(textureLod(u_source1, at, 0.0).xyz);
+    source.first += first1 * phase.x;
+    source.even += first1 * EVEN_PHASE;
 #endif
 #if PEAKED_COUNT > 1
-    source.first += exp(textureLod(u_source2, at, 0.0).xyz) * phase.y;
+    vec3 first2 = exp(textureLod(u_source2, at, 0.0).xyz);
+    source.first += first2 * phase.y;
+    source.even += first2 * EVEN_PHASE;
 #endif
 #if PEAKED_COUNT > 2
-    source.first += exp(textureLod(u_source3, at, 0.0).xyz) * phase.z;
+    vec3 first3 = exp(textureLod(u_source3, at, 0.0).xyz);
+    source.first += first3 * phase.z;
+    source.even += first3 * EVEN_PHASE;
 #endif
     return source;
 }
 
-#if defined(SURFACE) || defined(ECLIPSE)
+#if defined(SURFACE) || defined(ECLIPSE) || defined(CLOUDS)
 // Height above the sphere without a difference of large numbers.
 float altitude_at(Ray ray, float distance_m)
 {
@@ -140,6 +158,37 @@ Source eclipsed(Ray ray, Source source, float distance_m)
     return source;
 }
 
+// The same under, in or over clouds: the star's light as it comes through and as they spread it,
+// and that of the sky.
+Source clouded(Ray ray, Source source, float distance_m)
+{
+#ifdef CLOUDS
+    vec3 place = ray.direction * distance_m;
+    Deck deck = deck_toward_star(place, altitude_at(ray, distance_m));
+    float sun_mu = dot(normalize(u_eye_up * u_eye.x + place), u_sun);
+    source.first *= deck.direct;
+    source.multiple = source.multiple * deck_left(deck) + source.even * deck_spread(deck, sun_mu);
+#endif
+    return source;
+}
+
+// The mean of that over a step.
+Source shaded(Ray ray, Source source, float from_m, float to_m)
+{
+    Source sum = Source(vec3(0.0), vec3(0.0), source.even);
+#ifdef CLOUDS
+    for (int i = 0; i < CLOUD_PARTS; i++) {
+        float s = mix(from_m, to_m, (float(i) + 0.5) / float(CLOUD_PARTS));
+        Source left = clouded(ray, source, s);
+        sum.first += left.first / float(CLOUD_PARTS);
+        sum.multiple += left.multiple / float(CLOUD_PARTS);
+    }
+#else
+    sum = source;
+#endif
+    return sum;
+}
+
 void main()
 {
     Ray ray = make_pixel_ray(v_uv);
@@ -157,7 +206,7 @@ void main()
         float width = (to - from) * (y * y - x * x);
         float middle = from + (to - from) * 0.5 * (x * x + y * y);
         Source source = source_at(ray, azimuth, row, middle);
-        Source left = eclipsed(ray, source, middle);
+        Source left = eclipsed(ray, clouded(ray, source, middle), middle);
         lit.xyz += (left.first + left.multiple) * width;
         all += (source.first + source.multiple) * width;
     }
@@ -167,14 +216,19 @@ void main()
     leaves = terrain_leaves(ray, from, to);
 #endif
     Source source = source_at(ray, azimuth, row, 0.5 * (from + to));
-    Source left = eclipsed(ray, source, 0.5 * (from + to));
+    Source left = eclipsed(ray, shaded(ray, source, from, to), 0.5 * (from + to));
     lit.xyz += (left.first * leaves.x + left.multiple * leaves.y) * (to - from);
     all += (source.first + source.multiple) * (leaves.y * (to - from));
 #endif
     out_lit = lit;
     out_all = vec4(all, 0.0);
+#ifdef CLOUDS
+    // Those below send light up: there may be more.
+    vec3 share = all.x > 0.0 ? lit.xyz / max(all, vec3(1.0e-30)) : vec3(1.0);
+#else
     // Exactly 1 where nothing is hidden.
-    out_share = vec4(
-        mix(lit.xyz / max(all, vec3(1.0e-30)), vec3(1.0), vec3(greaterThanEqual(lit.xyz, all))),
-        lit.w);
+    vec3 share =
+        mix(lit.xyz / max(all, vec3(1.0e-30)), vec3(1.0), vec3(greaterThanEqual(lit.xyz, all)));
+#endif
+    out_share = vec4(share, lit.w);
 }

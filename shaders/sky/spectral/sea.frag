@@ -65,6 +65,10 @@ vec4 sea_light(Ray ray, Ground ground, Sea sea)
     sky *= sky_part;
     mirrored *= sky_part;
 #endif
+    // Clouds hide a part of the mirrored sky, and are there as bright as what they let through.
+    vec2 cloudy = cloud_sky(ray.direction * ground.distance_m, ground.altitude_m);
+    mirrored = mix((star * sea.height + sky) * (cloudy.x / SHARED_PI), mirrored, cloudy.x);
+    sky *= cloudy.x;
     return sea_radiance(sea, star, sky, mirrored);
 }
 
