@@ -190,33 +190,58 @@ bool cloud_may_be_near(CloudLayer layer, vec3 place, float cover, CloudBox box, 
     return most > cloud_threshold(cover, cloud_height_signal(best, layer.shell.z));
 }
 
-// Extinction, per m.
-float cloud_point(CloudLayer layer, vec3 place, float cover, CloudBox box)
+// x: the noise at a place; y: its spread in the box.
+vec2 cloud_fine_noise(CloudLayer layer, vec3 place, float height, CloudBox box)
 {
-    float height = cloud_height(layer, place);
-    float signal = cloud_height_signal(height, layer.shell.z);
     CloudPlaces at = cloud_places(layer, place, height);
     float noise = textureLod(u_cloud_noise, at.noise, box.level).x;
     float finer = textureLod(u_cloud_noise, at.finer, box.detail_level).x;
     float joint = cloud_joint_noise(noise, finer, layer.grain.z);
-    float spread = cloud_joint_spread(box.spread, box.detail_spread, joint);
-    float x = joint - cloud_threshold(cover, signal);
-    float density = cloud_density(x, spread, layer.form.z);
-    return cloud_extinction(density, cloud_part(x, spread), layer.grain.y, box.way);
+    return vec2(joint, cloud_joint_spread(box.spread, box.detail_spread, joint));
 }
 
-// The same by one look, for boxes so wide that the finer noise is the same in each. x: mean
-// extinction; y: where there is cloud in the box.
+// The same by one look, for boxes so wide that the finer noise is the same in each.
+vec2 cloud_coarse_noise(CloudLayer layer, vec3 place, float height, CloudBox box)
+{
+    float noise = textureLod(u_cloud_noise, cloud_places(layer, place, height).noise, box.level).x;
+    return vec2(noise, cloud_joint_spread(box.spread, layer.grain.z * u_cloud_spread[7], noise));
+}
+
+// Extinction, per m.
+float cloud_point(CloudLayer layer, vec3 place, float cover, CloudBox box)
+{
+    float height = cloud_height(layer, place);
+    vec2 noise = cloud_fine_noise(layer, place, height, box);
+    float x = noise.x - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    float density = cloud_density(x, noise.y, layer.form.z);
+    return cloud_extinction(density, cloud_part(x, noise.y), layer.grain.y, box.way);
+}
+
+// By one look. x: mean extinction; y: where there is cloud in the box.
 vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
     float height = cloud_height(layer, place);
-    float noise = textureLod(u_cloud_noise, cloud_places(layer, place, height).noise, box.level).x;
-    float spread = cloud_joint_spread(box.spread, layer.grain.z * u_cloud_spread[7], noise);
-    float x = noise - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
-    float density = cloud_density(x, spread, layer.form.z);
-    float part = cloud_part(x, spread);
+    vec2 noise = cloud_coarse_noise(layer, place, height, box);
+    float x = noise.x - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    float density = cloud_density(x, noise.y, layer.form.z);
+    float part = cloud_part(x, noise.y);
     return vec2(cloud_extinction(density, part, layer.grain.y, box.way),
                 layer.grain.y * density / max(part, 1.0e-4));
+}
+
+// Extinction on a way that begins in cloud at the height `from_height`: as far as that cloud may
+// reach, of which `kept` is left, there are no gaps, which a wide box has, but where the cloud ends
+// above.
+float cloud_from_inside(CloudLayer layer, vec2 noise, float cover, float height, float from_height,
+                        float kept, CloudBox box)
+{
+    float x = noise.x - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    float first = noise.x - cloud_threshold(cover, cloud_height_signal(from_height, layer.shell.z));
+    float density = cloud_density(x, noise.y, layer.form.z);
+    float part = cloud_part(x, noise.y);
+    float of_it = min(part / max(cloud_part(first, noise.y), 1.0e-4), 1.0);
+    float met = mix(part, of_it, kept);
+    return cloud_extinction(density / max(part, 1.0e-4) * met, met, layer.grain.y, box.way);
 }
 
 // Optical depth from a place toward the star, by six places at growing distances (Michelic 2019,
@@ -238,7 +263,10 @@ float cloud_sun_depth(CloudLayer layer, vec3 place, float cover, float sun_mu, f
         float to = reach * part * part;
         vec3 there = place + u_sun * (0.5 * (from + to));
         CloudBox box = cloud_box(layer, cloud_level(layer, max(0.5 * (to - from), width)));
-        sum += cloud_point(layer, there, cover, box) * (to - from);
+        float high = cloud_height(layer, there);
+        vec2 noise = cloud_fine_noise(layer, there, high, box);
+        float kept = exp(-0.5 * (from + to) / box.way);
+        sum += cloud_from_inside(layer, noise, cover, high, height, kept, box) * (to - from);
         from = to;
     }
     for (int i = CLOUD_SUN_FINE_PLACES + 1; i <= CLOUD_SUN_PLACES; i++) {
@@ -246,7 +274,10 @@ float cloud_sun_depth(CloudLayer layer, vec3 place, float cover, float sun_mu, f
         float to = reach * part * part;
         vec3 there = place + u_sun * (0.5 * (from + to));
         CloudBox box = cloud_box(layer, cloud_level(layer, max(0.5 * (to - from), width)));
-        sum += cloud_coarse(layer, there, cover, box).x * (to - from);
+        float high = cloud_height(layer, there);
+        vec2 noise = cloud_coarse_noise(layer, there, high, box);
+        float kept = exp(-0.5 * (from + to) / box.way);
+        sum += cloud_from_inside(layer, noise, cover, high, height, kept, box) * (to - from);
         from = to;
     }
     return sum;

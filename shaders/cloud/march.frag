@@ -19,6 +19,7 @@
 
 #include "cloud/light.glsl"
 #include "cloud/weather.glsl"
+#include "sky/deck.glsl"
 #include "sky/spectral/air.glsl"
 #include "sky/spectral/colour.glsl"
 
@@ -100,6 +101,19 @@ vec2 spread_four()
     ivec2 at = find_texel() & 1;
     float rank = float(at.x == at.y ? 2 * at.x : 3 - 2 * at.x);
     return (vec2(rank, mod(2.0 * rank + 1.0, 5.0)) + 0.5) * 0.25;
+}
+
+// With clouds above the layer and below it in what lights it from there. What its own clouds do to
+// one another is in the shares, but the ground has only what they leave.
+Lights lights_by_clouds(CloudLayer layer, Lights lights, vec3 place, float sun_mu)
+{
+    vec4 texel = textureLod(u_deck, deck_uv(place), 0.0);
+    float back = texel.z * (1.0 - texel.w);
+    float under = back * (1.0 - deck_below(texel.y, layer.shell.x));
+    vec4 down = lights.sun * (sun_mu / SHARED_PI) + lights.above;
+    lights.below = mix(lights.below * (1.0 - back), down, under);
+    lights.above *= 1.0 - back * deck_below(texel.y, layer.shell.y);
+    return lights;
 }
 
 void main()
@@ -242,7 +256,9 @@ void main()
                     break;
                 }
                 float at = moment / taken;
-                Lights lights = lights_at(ray.direction * at);
+                vec3 lit_at = ray.direction * at;
+                Lights lights =
+                    lights_by_clouds(layer, lights_at(lit_at), lit_at, max(sun_mu, 0.0));
                 Air before = air_before(ray, at);
                 vec3 light = before.scattered;
 #ifdef MARCH

@@ -49,11 +49,17 @@ struct Deck {
     float through; // covered parts of the sky let through
 };
 
+// How much of the clouds there is above an altitude.
+float deck_below(float middle, float altitude)
+{
+    return clamp(0.5 + 0.5 * (middle - altitude) / u_deck_map.w, 0.0, 1.0);
+}
+
 Deck deck_texel(vec3 crossing, float altitude)
 {
     vec4 texel = textureLod(u_deck, deck_uv(crossing), 0.0);
     Deck deck;
-    deck.below = clamp(0.5 + 0.5 * (texel.y - altitude) / u_deck_map.w, 0.0, 1.0);
+    deck.below = deck_below(texel.y, altitude);
     deck.direct = exp(-texel.x * deck.below);
     deck.cover = texel.z;
     deck.through = texel.w;

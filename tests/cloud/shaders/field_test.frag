@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Extinction of the first layer at a place, with its height.
+// Extinction of the first layer at a place, with its height, and the optical depth toward the star.
 #include "cloud/weather.glsl"
 
-uniform vec4 u_place; // relative to the eye, m; level
+uniform vec4 u_place;  // relative to the eye, m; level
+uniform float u_width; // of a pixel that looks toward the star
 
 out vec4 out_point;
 
@@ -14,5 +15,7 @@ void main()
     float cover = cloud_cover(layer, u_place.xyz, 1.0);
     cover = cloud_gathered(layer, u_place.xyz, cover, box);
     float extinction = cloud_point(layer, u_place.xyz, cover, box);
-    out_point = vec4(extinction, cloud_height(layer, u_place.xyz), 0.0, cover);
+    float height = cloud_height(layer, u_place.xyz);
+    float depth = cloud_sun_depth(layer, u_place.xyz, cover, 1.0, height, u_width);
+    out_point = vec4(extinction, height, depth, cover);
 }
