@@ -82,6 +82,22 @@ SHARED_FN Number relief_lacking(Number log2_wave, Number log2_texel)
     return 1.0 - relief_smooth(1.0, 2.0, log2_wave - log2_texel);
 }
 
+// What data resolve, log2 of sizes in m: the layer on top, and what lies below it where it covers
+// only a part.
+SHARED_STRUCT(ReliefData)
+{
+    Number top, below, part;
+};
+
+// Toward the border of a fine layer octaves fade as its heights do: by its part, each of them. By a
+// size between the two they would end one after the other, the largest, whose heights are hundreds
+// of metres, within a few steps.
+SHARED_FN Number relief_lacking_of(Number log2_wave, ReliefData data)
+{
+    Number below = relief_lacking(log2_wave, data.below);
+    return below + data.part * (relief_lacking(log2_wave, data.top) - below);
+}
+
 // Amplitude by altitude: none at 0, all from `full` m on; full = 0: all everywhere.
 SHARED_FN Number relief_fullness(Number height, Number full)
 {

@@ -28,7 +28,8 @@ NoiseBase ground_base(Tangent t, float quad_footprint, float known_height)
 {
     NoiseGround g = noise_ground(t.ground.geo, t.cos_latitude, quad_footprint);
     vec4 below = vec4(g.slope.x * t.east + g.slope.y * t.north, SLOPE_NO_DATA);
-    vec4 slope = layers_slope(below, g.map.x, t);
+    ReliefData data;
+    vec4 slope = layers_slope(below, g.map.x, t, data);
     NoiseBase b;
 #ifdef HAS_GROUND
     b.height = layers_altitude(g.map.x, t.ground, quad_footprint);
@@ -38,7 +39,7 @@ NoiseBase ground_base(Tangent t, float quad_footprint, float known_height)
     b.slope = slope.xyz;
     float dry = ground_dry(t);
     b.spread = dry * (g.spread.x * t.east + g.spread.y * t.north);
-    b.view = NoiseView(t.log2_footprint, slope.w, g.map.y * dry, g.map.z);
+    b.view = NoiseView(t.log2_footprint, slope.w, data, g.map.y * dry, g.map.z);
     b.climate = g.map.w;
     return b;
 }

@@ -145,7 +145,8 @@ Look find_look(Tangent t, LookPlace p)
 Look find_look(Tangent t, LookPlace p)
 {
     vec4 flat_ground = vec4(0.0, 0.0, 0.0, SLOPE_NO_DATA);
-    vec4 slope = terrain_slope(layers_slope(flat_ground, 0.0, t), t);
+    ReliefData data;
+    vec4 slope = terrain_slope(layers_slope(flat_ground, 0.0, t, data), t);
     vec3 root = sqrt(u_default_albedo);
     vec3 water = terrain_water(t.ground, t.log2_footprint);
     float part = look_shore(water, t, LookGround(length(slope.xyz), slope.w, 0.0));

@@ -127,9 +127,12 @@ NoiseValue noise_local(NoiseValue n, int i)
     return NoiseValue(n.value, g.x, g.y, g.z);
 }
 
-// What octaves see: log2 of the footprint and of the data's texel; amplitude in m; how ridged.
+// What octaves see: log2 of the footprint and of the data's texel, between layers and for each;
+// amplitude in m; how ridged.
 struct NoiseView {
-    float footprint, texel, amplitude, ridged;
+    float footprint, texel;
+    ReliefData data;
+    float amplitude, ridged;
 };
 
 float pow2(float x)
@@ -140,7 +143,7 @@ float pow2(float x)
 // Of the whole octave; what is seen of it is apart.
 float noise_size(int i, NoiseView view)
 {
-    return view.amplitude * u_noise_size[i].y * relief_lacking(u_noise_size[i].x, view.texel);
+    return view.amplitude * u_noise_size[i].y * relief_lacking_of(u_noise_size[i].x, view.data);
 }
 
 // Also where there is nothing to see: on the sea, and on the floor of oceans.
@@ -149,11 +152,18 @@ bool noise_is_over(int i, int end, NoiseView view)
     return i >= end || u_noise_size[i].x - view.footprint < 1.0 || view.amplitude < 1e-3;
 }
 
+// Variance of the heights below a texel, of an amplitude of 1.
+float noise_variance_below(float texel)
+{
+    int first = clamp(int(ceil(u_noise_size[0].x - texel - 1.5)), 0, u_noise_ends.z - 1);
+    return RELIEF_HEIGHT2 * u_noise_size[first].w;
+}
+
 // Of the heights that all octaves together add to data, m^2.
 float noise_height_variance(NoiseView view)
 {
-    int first = clamp(int(ceil(u_noise_size[0].x - view.texel - 1.5)), 0, u_noise_ends.z - 1);
-    return RELIEF_HEIGHT2 * pow2(view.amplitude) * u_noise_size[first].w;
+    return pow2(view.amplitude) * mix(noise_variance_below(view.data.below),
+                                      noise_variance_below(view.data.top), view.data.part);
 }
 
 // What is not seen of an octave, which made the height out of `before`, counts by its variances.
@@ -193,7 +203,7 @@ void rock_add(int i, NoiseValue n, NoiseView view)
     float wave = u_noise_size[i].x;
     float seen = rock.part * relief_seen(wave, rock.log2_pixel);
     float size =
-        seen * relief_rock_size(noise_size(i, view), wave) * relief_lacking(wave, view.texel);
+        seen * relief_rock_size(noise_size(i, view), wave) * relief_lacking_of(wave, view.data);
     rock.sum.value += seen * relief_tone(wave) * n.value;
     rock.sum.x += size * n.x;
     rock.sum.y += size * n.y;

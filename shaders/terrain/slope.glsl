@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Slopes of the layers of heights. Needs terrain/layers.glsl before it.
+#include "shared/relief.glsl"
 
 // A pixel's place and the unit vectors east, north and up there, local frame.
 struct Tangent {
@@ -54,11 +55,12 @@ MapAxes layer_axes(LayerFrame frame, Tangent t)
 }
 
 // The slope of a layer, as a tangent vector, laid over those below; w: log2 of a texel's height in
-// m. Steps are half a texel of the level that is seen, alike in metres: over a linear filter that
-// is the continuous slope of a quadratic spline. `height` is that of the layers so far; `gap` is 1
-// where the texture also says how coarse the model is in gaps.
+// m, between layers; `data`: the same, layer by layer. Steps are half a texel of the level that is
+// seen, alike in metres: over a linear filter that is the continuous slope of a quadratic spline.
+// `height` is that of the layers so far; `gap` is 1 where the texture also says how coarse the
+// model is in gaps.
 vec4 layer_over_slope(vec4 below, sampler2D heights, LayerFrame frame, float mode, float gap,
-                      Tangent t, inout float height)
+                      Tangent t, inout float height, inout ReliefData data)
 {
     vec3 at = layer_locate(frame, t.ground);
     float lod = max(t.log2_footprint - frame.texel.z, 0.0);
@@ -98,31 +100,36 @@ vec4 layer_over_slope(vec4 below, sampler2D heights, LayerFrame frame, float mod
     float coarser = gap > 0.5 ? textureLod(heights, at.xy, lod).y : 0.0;
     log2_texel = coarser > 0.0 ? min(log2_texel + coarser, max(below.w, log2_texel)) : log2_texel;
 #endif
+    bool is_there = at.z > 0.0;
+    data.top = is_there ? log2_texel : data.top;
+    data.below = is_there ? below.w : data.below;
+    data.part = is_there ? at.z : data.part;
     return mix(below, vec4(vector, log2_texel), at.z);
 }
 
 const float SLOPE_NO_DATA = 30.0; // log2 of a texel in m: larger than any planet
 
 // Of all layers of heights, over what lies below them: its slope and its height.
-vec4 layers_slope(vec4 below, float below_height, Tangent t)
+vec4 layers_slope(vec4 below, float below_height, Tangent t, out ReliefData data)
 {
+    data = ReliefData(below.w, below.w, 1.0);
     vec4 slope = below;
     float height = below_height;
 #if ELEVATION_COUNT > 0
     slope = layer_over_slope(slope, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x,
-                             u_elevation_gaps.x, t, height);
+                             u_elevation_gaps.x, t, height, data);
 #endif
 #if ELEVATION_COUNT > 1
     slope = layer_over_slope(slope, u_elevation1, ELEVATION_FRAME(1), u_elevation_modes.y,
-                             u_elevation_gaps.y, t, height);
+                             u_elevation_gaps.y, t, height, data);
 #endif
 #if ELEVATION_COUNT > 2
     slope = layer_over_slope(slope, u_elevation2, ELEVATION_FRAME(2), u_elevation_modes.z,
-                             u_elevation_gaps.z, t, height);
+                             u_elevation_gaps.z, t, height, data);
 #endif
 #if ELEVATION_COUNT > 3
     slope = layer_over_slope(slope, u_elevation3, ELEVATION_FRAME(3), u_elevation_modes.w,
-                             u_elevation_gaps.w, t, height);
+                             u_elevation_gaps.w, t, height, data);
 #endif
     return slope;
 }

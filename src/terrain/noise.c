@@ -175,7 +175,7 @@ static Relief add_noise(const struct terrain_noise *noise, const struct noise_pl
         noise_simplex(find_place(noise, i, vec3_scale(place->up, noise->radius_m)));
     const double log2_wave = noise->log2_wave[i];
     const double seen = relief_seen(log2_wave, place->log2_footprint);
-    double size = g->amplitude_m * noise->size[i] * relief_lacking(log2_wave, place->log2_texel);
+    double size = g->amplitude_m * noise->size[i] * relief_lacking_of(log2_wave, place->data);
     if (i >= noise->ends[1]) {
         const double level = noise->desc.level_roughness;
         size *= level + (1 - level) * r.cutting;
@@ -199,7 +199,7 @@ static Relief add_gullies(const struct terrain_noise *noise, const struct noise_
     const double log2_wave = noise->log2_wave[i];
     const double size = place->ground.amplitude_m * noise->size[i] * NOISE_GULLIES *
                         relief_seen(log2_wave, place->log2_footprint) *
-                        relief_lacking(log2_wave, place->log2_texel) * relief_cutting(slope2);
+                        relief_lacking_of(log2_wave, place->data) * relief_cutting(slope2);
     return relief_cut(r, turn_back(noise, i, n), size);
 }
 
@@ -256,7 +256,7 @@ struct vec3 noise_rock_normal(const struct terrain_noise *noise, const struct no
     for (int i = first_of_rock(noise); i < noise->ends[2] && part > 0; i++) {
         const NoiseValue n = turn_back(noise, i, noise_simplex(find_place(noise, i, at)));
         const double wave = noise->log2_wave[i];
-        const double lacking = relief_lacking(wave, place->log2_texel);
+        const double lacking = relief_lacking_of(wave, place->data);
         const double size = part * relief_seen(wave, place->log2_footprint) * lacking *
                             relief_rock_size(amplitude * noise->size[i] * lacking, wave);
         rock.x += size * n.x;

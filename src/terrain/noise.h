@@ -89,12 +89,13 @@ struct noise_ground noise_ground_at(const struct terrain_noise *noise, struct ve
 // log2 of a footprint that sees all octaves.
 #define NOISE_ALL (-100.0)
 
-// What is below octaves: the ground without them at a unit direction, log2 of the size in m of what
-// it resolves, and log2 of the size of what is asked for (a large negative number: all).
+// What is below octaves: the ground without them at a unit direction, what its data resolve, and
+// log2 of the size in m of what is asked for (a large negative number: all).
 struct noise_place {
     struct vec3 up;
     struct noise_ground ground;
-    double log2_texel, log2_footprint;
+    ReliefData data;
+    double log2_footprint;
     int octaves; // so many of the longest; NOISE_MAX_OCTAVES: all
 };
 

@@ -52,14 +52,16 @@ static struct noise_range find_amplitudes(const struct terrain_noise *noise,
                                     relief_fullness(height + rise, full)};
 }
 
-// Of an octave, with what data leave of it; `texels` are what they may resolve (log2).
+// Of an octave, with what data leave of it: here, and around.
 static struct noise_range find_sizes(const struct terrain_noise *noise, int octave,
-                                     const struct noise_range *amplitudes, const double texels[3])
+                                     const struct noise_range *amplitudes, ReliefData here,
+                                     const struct noise_around *around)
 {
     const double size = noise->size[octave], wave = noise->log2_wave[octave];
-    return (struct noise_range){amplitudes->least * size * relief_lacking(wave, texels[0]),
-                                amplitudes->here * size * relief_lacking(wave, texels[1]),
-                                amplitudes->most * size * relief_lacking(wave, texels[2])};
+    return (struct noise_range){
+        amplitudes->least * size * relief_lacking(wave, around->log2_texel[0]),
+        amplitudes->here * size * relief_lacking_of(wave, here),
+        amplitudes->most * size * relief_lacking(wave, around->log2_texel[1])};
 }
 
 struct noise_rise noise_find_rise(const struct terrain_noise *noise,
@@ -71,13 +73,12 @@ struct noise_rise noise_find_rise(const struct terrain_noise *noise,
     const double up = RELIEF_WEIGHT_BOUND * (1 - 0.77 * ridged);
     const double any = RELIEF_WEIGHT_BOUND * RELIEF_VALUE_BOUND;
     const struct noise_range amplitudes = find_amplitudes(noise, place, around);
-    const double texels[3] = {around->log2_texel[0], place->log2_texel, around->log2_texel[1]};
     struct noise_rise rise = {0, 0, 0};
     bool is_long = true;
     double steepest = 0;
     for (int i = 0; i < noise->ends[2]; i++) {
         const bool is_gully = i >= noise->ends[0] && i < noise->ends[1];
-        const struct noise_range size = find_sizes(noise, i, &amplitudes, texels);
+        const struct noise_range size = find_sizes(noise, i, &amplitudes, place->data, around);
         const double most = size.most * (is_gully ? NOISE_GULLIES : up);
         const double slope =
             size.most * (is_gully ? NOISE_GULLIES * STEEPEST_GULLY : STEEPEST_NOISE);

@@ -83,5 +83,6 @@ void slope_lay_over(const struct terrain_layer *layer, struct vec3 up, double ra
     const double own = log2(f->texel_height * radius_m);
     const double texel =
         fmin(own + layer_coarser(layer, place.x, place.y), fmax(s->log2_texel, own));
+    s->data = (ReliefData){texel, s->log2_texel, place.weight};
     s->log2_texel += place.weight * (texel - s->log2_texel);
 }

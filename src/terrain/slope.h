@@ -4,6 +4,7 @@
 #define TERRAIN_SLOPE_H
 // Slopes of layers of heights on the CPU, as layers_slope of terrain/slope.glsl finds them.
 
+#include "shared/relief.glsl"
 #include "terrain/layer.h"
 
 #define SLOPE_NO_DATA 30.0 // log2 of a texel in m: larger than any planet
@@ -11,7 +12,8 @@
 struct slope {
     struct vec3 slope; // tangential, planet axes, m per m
     double height_m;   // linear between texels: what modes that compare or multiply need
-    double log2_texel; // of the size in m of what the heights resolve
+    double log2_texel; // of the size in m of what the heights resolve, between layers
+    ReliefData data;   // the same, layer by layer
 };
 
 // Lays a layer's slope at a unit direction over what lies below.

@@ -106,7 +106,8 @@ void surface_find_place(const struct surface *s, struct vec3 direction, struct n
     const double longitude = atan2(direction.y, direction.x);
     const struct vec3 up = vec3_normalize(direction);
     struct noise_ground ground = noise_ground_at(&s->noise, up);
-    struct slope slope = {ground.slope, ground.height_m, SLOPE_NO_DATA};
+    struct slope slope = {
+        ground.slope, ground.height_m, SLOPE_NO_DATA, {SLOPE_NO_DATA, SLOPE_NO_DATA, 1}};
     for (size_t i = 0; i < s->counts[SURFACE_ELEVATION]; i++) {
         slope_lay_over(&s->layers[SURFACE_ELEVATION][i], up, s->radius_m, &slope);
     }
@@ -115,7 +116,7 @@ void surface_find_place(const struct surface *s, struct vec3 direction, struct n
         lay_over(s, layer_sample, s->is_invented ? ground.height_m : 0, latitude, longitude);
     ground.dry = shore_dry(surface_lake(s, latitude, longitude));
     ground.dry_per_m = steepest_dry(s, latitude);
-    *place = (struct noise_place){up, ground, slope.log2_texel, NOISE_ALL, NOISE_MAX_OCTAVES};
+    *place = (struct noise_place){up, ground, slope.data, NOISE_ALL, NOISE_MAX_OCTAVES};
 }
 
 Relief surface_relief(const struct surface *s, struct vec3 direction, struct noise_place *place)

@@ -294,6 +294,59 @@ static void test_detail_of_data_agrees_on_both_sides(void **state)
     surface_finish(&s);
 }
 
+static double find_made(const struct surface *s, struct vec3 at)
+{
+    return surface_altitude(s, at) - surface_altitude_of_data(s, at);
+}
+
+// How much is left, along a meridian, of what is made up without the inset.
+static double find_left(const struct surface *with, const struct surface *without, double longitude)
+{
+    double sum = 0, all = 0;
+    for (int i = 0; i < 500; i++) {
+        const double latitude = (12.7 + 2.6 * i / 500) * DEGREE;
+        const struct vec3 at = vec3_from_lat_lon(latitude, longitude * DEGREE);
+        const double made = find_made(without, at);
+        sum += find_made(with, at) * made;
+        all += made * made;
+    }
+    return sum / all;
+}
+
+// Half way into a layer half of each octave is left. By one size of texels between those of inside
+// and outside the largest, which are nearly all, would be gone in the first fifth of the way.
+static void test_detail_fades_as_the_layer_does(void **state)
+{
+    struct fixture *f = *state;
+    const struct raster_place globe = {-180, 90, 1, 360, 180};
+    const struct raster_place small = {40, 16, 0.02, 400, 200};
+    char paths[2][128];
+    fixture_write_heights(f, "rolling", &globe, rolling_height, paths[0]);
+    fixture_write_heights(f, "same", &small, rolling_height, paths[1]);
+    const struct surface_layer_desc layers[] = {
+        {.kind = SURFACE_ELEVATION, .path = paths[0], .scale = 1},
+        {.kind = SURFACE_ELEVATION, .path = paths[1], .scale = 1, .feather_rad = DEGREE / 2}};
+    struct surface_desc desc = surface_desc_default();
+    desc.radius_m = 6e6;
+    desc.layers = layers;
+    desc.detail =
+        (struct surface_detail){.roughness = 1, .albedo_variation = 0.2, .smallest_m = 0.2};
+    struct surface with, without;
+    desc.layer_count = 1;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &without), TRL_OK);
+    desc.layer_count = 2;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &with), TRL_OK);
+    assert_true(find_left(&with, &without, 39.9) == 1);
+    // Octaves weigh each other a little: less of one leaves more of the next.
+    const double half = find_left(&with, &without, 40.25);
+    if (!(half > 0.4 && half < 0.65)) {
+        fail_msg("half way %.3f are left", half);
+    }
+    assert_true(fabs(find_left(&with, &without, 41)) < 0.05);
+    surface_finish(&with);
+    surface_finish(&without);
+}
+
 // Shores: octaves fade within 25 m of the sea, which is level.
 static double shore_height(double latitude, double longitude)
 {
@@ -358,7 +411,7 @@ static double find_roughness(const struct surface *s, double along_m, double up_
             const struct vec3 aside = vec3_add(vec3_scale(east, k * along_m / s->radius_m),
                                                vec3_scale(north, k * up_m / 2 / s->radius_m));
             const struct noise_place place = {.up = vec3_normalize(vec3_add(up, aside)),
-                                              .log2_texel = 10,
+                                              .data = {10, 10, 1},
                                               .log2_footprint = NOISE_ALL};
             stand.height_m = 1000 + k * up_m;
             normals[k] = noise_rock_normal(&s->noise, &place, &stand);
@@ -391,6 +444,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_gpu_and_cpu_agree_on_invented_heights),
         cmocka_unit_test(test_no_ground_is_above_the_ceiling),
+        cmocka_unit_test(test_detail_fades_as_the_layer_does),
         cmocka_unit_test(test_no_shore_is_above_the_ceiling),
         cmocka_unit_test(test_detail_of_data_agrees_on_both_sides),
         cmocka_unit_test(test_gradients_are_those_of_the_heights),
