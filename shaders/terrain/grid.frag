@@ -39,6 +39,6 @@ void main()
     float cell = length(grid_direction(next) - grid_direction(quad)) * u_anchor.w;
     float h = terrain_altitude(geo_from_local(o, 1.0), log2(cell) - 1.0);
     // Near the anchor both terms are small, and keep their digits.
-    vec3 offset = o * (u_anchor.w + h) + vec3(0.0, 0.0, h - u_grid.z);
-    o_position = vec4(u_planet_from_local * offset, h);
+    vec3 offset = o * (u_anchor.w + (h + u_datum)) + vec3(0.0, 0.0, h + (u_datum - u_grid.z));
+    o_position = vec4(u_planet_from_local * offset, h + u_datum);
 }

@@ -32,7 +32,7 @@ NoiseBase ground_base(Tangent t, float quad_footprint, float known_height)
     vec4 slope = layers_slope(below, g.map.x, t, data);
     NoiseBase b;
 #ifdef HAS_GROUND
-    b.height = layers_altitude(g.map.x, t.ground, quad_footprint);
+    b.height = layers_altitude(g.map.x - u_datum, t.ground, quad_footprint);
 #else
     b.height = known_height;
 #endif
@@ -47,7 +47,7 @@ NoiseBase ground_base(Tangent t, float quad_footprint, float known_height)
 float ground_altitude(Tangent t, vec3 at, float known_height)
 {
     NoiseBase b = ground_base(t, t.log2_footprint, known_height);
-    return max(noise_compose(b, at * u_anchor.w, t.up).height, u_noise_form.w);
+    return max(noise_compose(b, at * u_anchor.w, t.up).height, u_noise_form.w - u_datum);
 }
 
 float terrain_altitude(vec2 geo, float log2_footprint)
@@ -57,7 +57,7 @@ float terrain_altitude(vec2 geo, float log2_footprint)
 #ifdef HAS_GROUND
     return ground_altitude(t, at, 0.0);
 #else
-    return ground_altitude(t, at, layers_altitude(0.0, t.ground, log2_footprint));
+    return ground_altitude(t, at, layers_altitude(-u_datum, t.ground, log2_footprint));
 #endif
 }
 
@@ -69,6 +69,6 @@ float terrain_altitude_linear(vec2 geo, float log2_footprint)
 #ifdef HAS_GROUND
     return ground_altitude(t, at, 0.0);
 #else
-    return ground_altitude(t, at, layers_altitude_linear(0.0, t.ground, log2_footprint));
+    return ground_altitude(t, at, layers_altitude_linear(-u_datum, t.ground, log2_footprint));
 #endif
 }

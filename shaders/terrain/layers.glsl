@@ -52,7 +52,8 @@ const int LAYER_VECTORS = 4;
 // ground, and one of the whole range of heights by millimetres:
 //     place   texture coordinates of the anchor: whole 1024ths, and what is left
 //     unit    how many steps a texture's 1 stands for (0: it holds units as they are); the height
-//             that is subtracted from all, in steps; its altitude, m; metres of a step
+//             that is subtracted from all, in steps; its altitude over u_datum, m; metres of a
+//             step
 struct LayerNear {
     vec4 place, unit;
 };
@@ -73,6 +74,11 @@ uniform sampler2D u_elevation2;
 #if ELEVATION_COUNT > 3
 uniform sampler2D u_elevation3;
 #endif
+
+// The altitude that all others here count from, m: 0, unless a mesh wants more digits near the eye.
+// Far from the sphere a float has steps of half a millimetre (at 5 km), a tenth of what an eye on
+// the ground sees of it.
+uniform float u_datum;
 
 const float LAYER_PI = 3.14159265358979;
 
@@ -321,10 +327,13 @@ float layer_linear(sampler2D heights, LayerFrame frame, vec2 uv, float lod)
 float layer_blend(float mode, float below, float value, float weight)
 {
 #ifdef HAS_MODES
-    return blend_layers(mode, below, value, weight);
+    float mixed = blend_layers(mode, below + u_datum, value + u_datum, weight) - u_datum;
+    bool is_whole = weight >= 1.0 && mode < 0.5;
 #else
-    return mix(below, value, weight);
+    float mixed = mix(below, value, weight);
+    bool is_whole = weight >= 1.0;
 #endif
+    return is_whole ? value : mixed; // with all its digits, which below + 1 (value - below) has not
 }
 
 // Lays a layer over `altitude`, smooth where its texels are larger than the footprint.
@@ -347,13 +356,13 @@ float layer_over_linear(float altitude, sampler2D heights, LayerFrame frame, flo
     vec3 at = layer_locate(frame, g);
     float lod = log2_footprint - frame.texel.z;
     float value = frame.texel.w + frame.texel.x * layer_linear(heights, frame, at.xy, lod);
-    return layer_blend(mode, altitude, value, at.z);
+    return layer_blend(mode, altitude, value - u_datum, at.z);
 }
 
 #define ELEVATION_FRAME(i) LAYER_FRAME(u_elevation, i)
 #define ELEVATION_NEAR(i) LayerNear(u_elevation_near[2 * i], u_elevation_near[2 * i + 1])
 
-// Metres above the sphere, as all layers together say it, over what lies below them.
+// Metres above u_datum, as all layers together say it, over what lies below them.
 float layers_altitude(float below, Ground g, float log2_footprint)
 {
     float h = below;
@@ -408,11 +417,11 @@ float layers_altitude_linear(float below, Ground g, float log2_footprint)
 #else
 float terrain_altitude(vec2 geo, float log2_footprint)
 {
-    return layers_altitude(0.0, ground_at(geo), log2_footprint);
+    return layers_altitude(-u_datum, ground_at(geo), log2_footprint);
 }
 
 float terrain_altitude_linear(vec2 geo, float log2_footprint)
 {
-    return layers_altitude_linear(0.0, ground_at(geo), log2_footprint);
+    return layers_altitude_linear(-u_datum, ground_at(geo), log2_footprint);
 }
 #endif

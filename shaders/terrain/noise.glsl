@@ -290,7 +290,7 @@ struct NoiseBase {
 Relief noise_compose(NoiseBase base, vec3 at, vec3 up)
 {
     float amplitude = base.view.amplitude;
-    base.view.amplitude *= relief_fullness(base.height, u_noise_form.z);
+    base.view.amplitude *= relief_fullness(base.height + u_datum, u_noise_form.z);
     Relief r = relief_of(base.height, base.slope.x, base.slope.y, base.slope.z);
     r = noise_relief(r, at, up, base.view);
     vec3 spread = base.spread * ((r.height - base.height) / max(amplitude, 1e-6));

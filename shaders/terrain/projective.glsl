@@ -11,11 +11,17 @@ uniform highp sampler2D u_rings;   // gamma of each ring of probes, from 0 to th
 uniform highp sampler2D u_columns; // cosine and sine of the azimuth; range of omega in view
 
 // Of a point of the half plane of a column: distance from the vertical, depth below the viewer.
+// The altitude is the sum of a datum and what is above it.
+vec2 profile_point_above(float gamma, float datum, float above)
+{
+    float r = u_eye.z + (datum + above);
+    float s = sin(0.5 * gamma);
+    return vec2(r * sin(gamma), (((u_eye.x - datum) - above) + u_eye.y) + 2.0 * r * s * s);
+}
+
 vec2 profile_point(float gamma, float altitude)
 {
-    float r = u_eye.z + altitude;
-    float s = sin(0.5 * gamma);
-    return vec2(r * sin(gamma), ((u_eye.x - altitude) + u_eye.y) + 2.0 * r * s * s);
+    return profile_point_above(gamma, altitude, 0.0);
 }
 
 // Direction from the planet's centre, less (0, 0, 1).

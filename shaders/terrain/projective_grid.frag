@@ -37,6 +37,6 @@ void main()
     float gamma = texelFetch(u_rows, ivec2(p.y, 0), 0).x;
     vec3 direction = profile_direction(gamma, azimuth);
     float h = terrain_altitude(geo_from_local(direction, 1.0), find_footprint(p));
-    vec2 at = profile_point(gamma, h);
-    o_position = vec4(u_planet_from_local * vec3(at.x * azimuth, -at.y), h);
+    vec2 at = profile_point_above(gamma, u_datum, h);
+    o_position = vec4(u_planet_from_local * vec3(at.x * azimuth, -at.y), u_datum + h);
 }

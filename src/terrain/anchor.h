@@ -9,6 +9,7 @@
 struct anchor {
     double latitude_rad, longitude_rad;
     struct vec3 east, north, up; // orthonormal, planet frame
+    double datum_m;              // altitude that shaders count altitudes from, a float; mostly 0
 };
 
 // Below a position. At a pole, east is that of the position's longitude.
@@ -19,7 +20,7 @@ static inline struct anchor anchor_below(struct vec3 position)
     const double longitude = atan2(position.y, position.x);
     const struct vec3 up = vec3_from_lat_lon(latitude, longitude);
     const struct vec3 east = {-sin(longitude), cos(longitude), 0};
-    return (struct anchor){latitude, longitude, east, vec3_cross(up, east), up};
+    return (struct anchor){latitude, longitude, east, vec3_cross(up, east), up, 0};
 }
 
 static inline struct vec3 anchor_local(const struct anchor *anchor, struct vec3 v)

@@ -109,7 +109,7 @@ static void describe_near(const struct terrain_layer *layer, const struct anchor
     const double base = floor((ground_m - layer->texture_offset_m) / step_m + 0.5);
     rows[1][0] = (float)steps;
     rows[1][1] = (float)base;
-    rows[1][2] = (float)(layer->texture_offset_m + (double)rows[1][1] * step_m);
+    rows[1][2] = (float)(layer->texture_offset_m + (double)rows[1][1] * step_m - anchor->datum_m);
     rows[1][3] = (float)step_m;
 }
 
@@ -164,6 +164,7 @@ void surface_bind(const struct surface *surface, const struct surface_selection 
     const float place[4] = {(float)sin(anchor->latitude_rad), (float)cos(anchor->latitude_rad),
                             (float)anchor->latitude_rad, (float)surface->radius_m};
     gpu_program_set_vec4(program, "u_anchor", place);
+    gpu_program_set_float(program, "u_datum", (float)anchor->datum_m);
     if (surface->stream) {
         gpu_program_set_texture(program, "u_pages", &surface->stream->atlas.pages);
     }

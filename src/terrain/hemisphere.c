@@ -230,10 +230,11 @@ static trl_result draw_grid(struct hemisphere *h)
     const float grid[4] = {(float)h->cells, (float)h->projection.lift, (float)h->base_m, 0};
     const float rings[2] = {(float)h->rings.inner, (float)h->rings.power};
     float planet_from_local[9];
-    anchor_planet_from_local(&h->projection.anchor, planet_from_local);
+    struct anchor anchor = h->projection.anchor;
+    anchor.datum_m = h->base_m;
+    anchor_planet_from_local(&anchor, planet_from_local);
     const struct surface_eye eye = projection_eye(&h->projection, h->surface, 0);
-    struct gpu_program *program =
-        height_programs_bind(&h->grid_programs, &eye, &h->projection.anchor);
+    struct gpu_program *program = height_programs_bind(&h->grid_programs, &eye, &anchor);
     gpu_program_set_vec4(program, "u_grid", grid);
     gpu_program_set_vec2(program, "u_rings", rings);
     gpu_program_set_mat3(program, "u_planet_from_local", planet_from_local);

@@ -106,13 +106,22 @@ static trl_result make_textures(struct projective *p)
     return result == TRL_OK ? gpu_target_init(p->gpu, &target, &p->target) : result;
 }
 
+// Near the eye where that is near the ground, and never farther from heights than they are apart.
+static double find_datum(const struct projective *p)
+{
+    const double eye_m = p->sampling.distance_m - p->surface->radius_m;
+    return (double)(float)fmax(surface_min_altitude(p->surface),
+                               fmin(eye_m, surface_max_altitude(p->surface)));
+}
+
 static trl_result draw_grid(struct projective *p, const struct projective_rows_inputs *in)
 {
-    const struct anchor *anchor = &p->sampling.anchor;
+    struct anchor anchor = p->sampling.anchor;
+    anchor.datum_m = find_datum(p);
     const struct surface_eye layers = sampling_camera_eye(&p->sampling, p->surface);
-    struct gpu_program *program = height_programs_bind(&p->grid_programs, &layers, anchor);
+    struct gpu_program *program = height_programs_bind(&p->grid_programs, &layers, &anchor);
     float planet_from_local[9];
-    anchor_planet_from_local(anchor, planet_from_local);
+    anchor_planet_from_local(&anchor, planet_from_local);
     projective_rows_bind(&p->rows, in, program);
     gpu_program_set_texture(program, "u_rows", projective_rows_texture(&p->rows));
     gpu_program_set_mat3(program, "u_planet_from_local", planet_from_local);
