@@ -6,7 +6,8 @@
 // distance from its centre in parts of its radius, `turn` the angle around it in its sense of
 // turning, `eye` the radius of the eye in the same parts, `noise` in [0, 1] and 0.5 in the mean.
 // Shapes are set by eye to photographs from orbit; the angle is that of bands seen by radar, 10 to
-// 25 degrees (Willoughby 1978, J. Geophys. Res. 83).
+// 25 degrees (Willoughby 1978, J. Geophys. Res. 83); that of real bands changes with the distance
+// (Yurchak 2019, doi 10.5772/intechopen.88683), here it does not. No wind is modelled.
 #ifndef SHARED_CYCLONE_GLSL
 #define SHARED_CYCLONE_GLSL
 
