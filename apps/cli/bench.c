@@ -29,6 +29,8 @@ static const struct bench benches[] = {
      NULL},
     {"water-tables", "light out of the water over depth, view and star: time, size, error",
      bench_run_water_tables, NULL},
+    {"water-error", "colours of three waters in four depths, noon and 4 PM, against traced paths",
+     bench_run_water_error, NULL},
     {"terrain-error", "each mesh of the ground against rays: pixels, triangles, time, popping",
      bench_run_terrain_error, NULL},
     {"stream", "rasters larger than their memory: first complete frame, tiles, a flight",

@@ -21,6 +21,10 @@ struct bench_job {
 // The job's scene, or the one of that name that ships with the program. Errors are reported.
 trl_result bench_load_scene(const struct bench_job *job, const char *file, trl_scene **out);
 
+// The bare sphere with more keys, as `"key": value`.
+trl_result bench_bare_scene(const struct bench_job *job, const char *name, const char *keys,
+                            trl_scene **out);
+
 // The bare sphere with cumulus of that cover.
 trl_result bench_cloudy_scene(const struct bench_job *job, double cover, trl_scene **out);
 
@@ -59,6 +63,7 @@ trl_result bench_run_santana_spectrum(const struct bench_job *job);
 trl_result bench_run_santana_fit(const struct bench_job *job);
 trl_result bench_run_michelic_table1(const struct bench_job *job);
 trl_result bench_run_water_tables(const struct bench_job *job);
+trl_result bench_run_water_error(const struct bench_job *job);
 trl_result bench_run_michelic_table2(const struct bench_job *job);
 trl_result bench_run_ocean_frame(const struct bench_job *job);
 trl_result bench_run_michelic_frame(const struct bench_job *job);

@@ -33,26 +33,33 @@ static char *read_text(const char *path, size_t *length)
     return text;
 }
 
-trl_result bench_cloudy_scene(const struct bench_job *job, double cover, trl_scene **out)
+trl_result bench_bare_scene(const struct bench_job *job, const char *name, const char *keys,
+                            trl_scene **out)
 {
     *out = NULL;
     char *path = app_find_scene("bare-sphere.json");
     size_t length = 0;
     char *text = path ? read_text(path, &length) : NULL;
-    char *cloudy = text ? malloc(length + 128) : NULL;
-    trl_result result = cloudy ? TRL_OK : TRL_ERROR_IO;
-    if (cloudy) {
-        const int head =
-            snprintf(cloudy, 128, "{\"clouds\": {\"layers\": [{\"cover\": %g}]},", cover);
+    char *all = text ? malloc(length + strlen(keys) + 2) : NULL;
+    trl_result result = all ? TRL_OK : TRL_ERROR_IO;
+    if (all) {
+        const int head = sprintf(all, "{%s,", keys);
         const char *rest = memchr(text, '{', length);
         const size_t left = rest ? length - (size_t)(rest + 1 - text) : 0;
-        memcpy(cloudy + head, rest ? rest + 1 : "", left);
-        result = trl_scene_parse(job->app->ctx, cloudy, (size_t)head + left, "clouds", ".", out);
+        memcpy(all + head, rest ? rest + 1 : "", left);
+        result = trl_scene_parse(job->app->ctx, all, (size_t)head + left, name, ".", out);
     }
-    free(cloudy);
+    free(all);
     free(text);
     free(path);
     return result;
+}
+
+trl_result bench_cloudy_scene(const struct bench_job *job, double cover, trl_scene **out)
+{
+    char keys[64];
+    snprintf(keys, sizeof keys, "\"clouds\": {\"layers\": [{\"cover\": %g}]}", cover);
+    return bench_bare_scene(job, "clouds", keys, out);
 }
 
 static trl_result add_passes(const struct bench_job *job, const trl_renderer *renderer,

@@ -83,6 +83,11 @@ SHARED_FN Number sea_breaking(Number wavenumber, Number breaking)
 #define SEA_LEVELS 3
 #define SEA_LEVEL_OCTAVES 3.0
 
+// Table of what comes out of the water: orders of azimuth, and angles of star and view. Those of
+// sky/sea.h.
+#define SEA_ORDERS 3
+#define SEA_ANGLES 12
+
 // Depth of water as a code for a byte, 1 at the shore and 0 from SEA_DEEP_M on, where no light
 // comes back from the bed of the clearest water; and back.
 #define SEA_DEEP_M 200.0

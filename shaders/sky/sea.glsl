@@ -7,9 +7,13 @@
 #include "shared/sea.glsl"
 #include "sky/ground.glsl"
 
-uniform sampler2D u_water; // depth x (1 + roughnesses): reflectance of the water; x of other rows:
-                           // that of the surface over the root of the view's cosine, y: see
-                           // Sea.mirror_mu
+// Root of the view's cosine x roughness: reflectance of the surface; y: see Sea.mirror_mu.
+uniform sampler2D u_water;
+// Depth x row x view: see sky/sea_volume.h.
+uniform sampler3D u_sea_volume;
+// Cosine of refracted grazing rays, 1 over a step of cosines, 1 over the refractive index, 1 over
+// depths.
+uniform vec4 u_sea_volume_map;
 #ifdef FACETS
 uniform sampler2D u_facets; // of ocean/facets.h: normal of the waves that are resolved, foam; mean
                             // square slope of the rest
@@ -18,7 +22,7 @@ uniform float u_disc_slope; // what the star's disc adds
 uniform sampler2D u_reflection; // of terrain: see sky/reflection.frag
 uniform vec2 u_reflected;       // 1: it covers the sky; its light is added
 uniform vec4 u_sea;        // mean square slope of all, refractive index, white share, its albedo
-uniform float u_sea_texel; // 1 over depths of u_water
+uniform float u_sea_texel; // 1 over views of u_water
 uniform float u_shadowed;  // 1: terrain's shadow is the light's
 
 struct Sea {
@@ -32,22 +36,48 @@ struct Sea {
     float glint;     // radiance per irradiance of a plane that faces the star
     float seen;      // reflectance of the surface for the view
     float mirror_mu; // cosine of the zenith angle where it mirrors the sky, in the mean
-    float passed;    // part of light from everywhere that enters the water, at 60 degrees
     float entered;   // of the star's
     vec2 white;      // share of the surface that is white, and its albedo
-    vec4 water;      // of the water below the surface
+    vec4 by_star;    // of the water below the surface: pi times what leaves it per irradiance
+    vec4 by_sky;     // that has entered, by the star; from above, by the sky
     vec4 terrain;    // mirrored, linear sRGB behind the air; part of the mirrored sky that it hides
 };
-
-vec4 water_at(float x, float row)
-{
-    return textureLod(u_water, vec2(x + (0.5 - x) * u_sea_texel, row), 0.0);
-}
 
 // At a roughness, between its rows.
 vec4 surface_at(float mu, float level)
 {
-    return water_at(sqrt(clamp(mu, 0.0, 1.0)), (1.5 + level) / float(1 + SEA_LEVELS));
+    float x = sqrt(clamp(mu, 0.0, 1.0));
+    return textureLod(u_water, vec2(x + (0.5 - x) * u_sea_texel, (0.5 + level) / float(SEA_LEVELS)),
+                      0.0);
+}
+
+// Of light in the water, what one row of its table says.
+vec4 volume_at(vec3 at, float row)
+{
+    float rows = float(SEA_ORDERS * SEA_ANGLES + 1);
+    return textureLod(u_sea_volume, vec3(at.x, (row + at.y + 0.5) / rows, at.z), 0.0);
+}
+
+// What comes out of the water: rays bend at the mean of the waves that are resolved, light at level
+// water.
+void look_below(inout Sea sea, vec3 ray, vec3 light, float code)
+{
+    vec3 sight = refract(ray, sea.normal, u_sea_volume_map.z);
+    vec3 sent = (light - sea.up * dot(light, sea.up)) * u_sea_volume_map.z;
+    float last = float(SEA_ANGLES - 1);
+    float sun_mu = sqrt(max(1.0 - dot(sent, sent), 0.0));
+    float view_mu = -dot(sight, sea.up);
+    float sun = clamp((sun_mu - u_sea_volume_map.x) * u_sea_volume_map.y, 0.0, last);
+    float view = clamp((view_mu - u_sea_volume_map.x) * u_sea_volume_map.y, 0.0, last);
+    vec3 at = vec3(code + (0.5 - code) * u_sea_volume_map.w, sun, (view + 0.5) / float(SEA_ANGLES));
+    // Both sines times the cosine of the azimuth between, and both squared times that of twice it.
+    float along = dot(sent, sight);
+    float twice = 2.0 * along * along - dot(sent, sent) * max(1.0 - view_mu * view_mu, 0.0);
+    vec4 share = 1.0 + volume_at(at, float(SEA_ANGLES)) * along +
+                 volume_at(at, float(2 * SEA_ANGLES)) * twice;
+    sea.by_star = exp(volume_at(at, 0.0)) * max(share, 0.0);
+    at.y = 0.0;
+    sea.by_sky = exp(volume_at(at, float(SEA_ORDERS * SEA_ANGLES)));
 }
 
 // Of every second pixel: between the four around, of those that show water.
@@ -100,9 +130,8 @@ Sea find_sea(Ray ray, Ground ground)
     vec4 surface = surface_at(sea.view_mu, sea.level);
     sea.seen = surface.x;
     sea.mirror_mu = surface.y;
-    sea.passed = 1.0 - surface_at(0.5, float(SEA_LEVELS - 1)).x;
     sea.entered = 1.0 - surface_at(sea.height, float(SEA_LEVELS - 1)).x;
-    sea.water = water_at(ground.depth_code, 0.5 / float(1 + SEA_LEVELS));
+    look_below(sea, ray.direction, light, ground.depth_code);
     sea.terrain = sea_terrain();
     return sea;
 }
@@ -128,9 +157,9 @@ vec3 sea_mirror(Sea sea)
 vec4 sea_radiance(Sea sea, vec4 star, vec4 sky, vec4 mirrored)
 {
     star *= sea.visible;
-    vec4 below = star * (sea.height * sea.entered) + sky * sea.passed;
+    vec4 below = star * (sea.height * sea.entered) * sea.by_star + sky * sea.by_sky;
     vec4 clear = star * sea.glint + mirrored * (sea.seen * (1.0 - sea.terrain.a)) +
-                 sea.water * below * ((1.0 - sea.seen) / SHARED_PI);
+                 below * ((1.0 - sea.seen) / SHARED_PI);
     vec4 white = (star * sea.height + sky) * (sea.white.y / SHARED_PI);
     return mix(clear, white, sea.white.x);
 }

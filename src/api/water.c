@@ -3,6 +3,7 @@
 #include <terrella/water.h>
 
 #include "api/check.h"
+#include "api/water.h"
 #include "api/wavelengths.h"
 #include "ocean/volume.h"
 #include "reference/water.h"
@@ -11,7 +12,6 @@
 #include <math.h>
 #include <time.h>
 
-enum { WATER_CANARY = 0x54575431 };
 // Level lines of sight never leave a layer.
 static const double LEAST_COSINE = 1e-6;
 
@@ -20,7 +20,7 @@ trl_water_desc trl_water_desc_default(void)
     return (trl_water_desc){.canary = WATER_CANARY, .paths = 100000};
 }
 
-static trl_result check_query(const trl_context *ctx, const trl_water_query *q, size_t index)
+trl_result water_check_query(const trl_context *ctx, const trl_water_query *q, size_t index)
 {
     const char *wrong = NULL;
     const double view = cos(q->view_zenith_rad);
@@ -67,8 +67,8 @@ static trl_result solve(const trl_context *ctx, const struct ocean_desc *ocean,
     return result;
 }
 
-static void trace(const struct ocean_desc *ocean, const trl_water_desc *desc,
-                  const trl_water_query *q, trl_water_light *out)
+void water_trace(const struct ocean_desc *ocean, const trl_water_desc *desc,
+                 const trl_water_query *q, trl_water_light *out)
 {
     const struct volume_column column = volume_column_make(ocean, q->depth_m, q->wavelength_nm);
     const struct water_phase phase = water_phase_make(&column.optics);
@@ -142,7 +142,7 @@ static trl_result light_up(const trl_context *ctx, const struct medium *medium,
     return result;
 }
 
-static trl_result check_ocean(const trl_context *ctx, const trl_scene *scene)
+trl_result water_check_ocean(const trl_context *ctx, const trl_scene *scene)
 {
     return scene->ocean.is_there
                ? TRL_OK
@@ -160,14 +160,14 @@ trl_result trl_water_radiance(trl_context *ctx, const trl_scene *scene, const tr
     const trl_water_desc all = desc ? *desc : trl_water_desc_default();
     TRL_REQUIRE(ctx, all.canary == WATER_CANARY);
     TRL_REQUIRE(ctx, all.paths >= 2 && all.paths <= CHECK_MAX_PATHS);
-    trl_result result = check_ocean(ctx, scene);
+    trl_result result = water_check_ocean(ctx, scene);
     for (size_t n = 0; n < count && result == TRL_OK; n++) {
-        result = check_query(ctx, &queries[n], n);
+        result = water_check_query(ctx, &queries[n], n);
     }
     for (size_t n = 0; n < count && result == TRL_OK; n++) {
         result = trl_progress(ctx, "light in the water", (double)n / (double)count);
         if (result == TRL_OK && all.uses_reference) {
-            trace(&scene->ocean, &all, &queries[n], &lights[n]);
+            water_trace(&scene->ocean, &all, &queries[n], &lights[n]);
         } else if (result == TRL_OK) {
             result = solve(ctx, &scene->ocean, &queries[n], &lights[n]);
         }
@@ -215,7 +215,7 @@ trl_result trl_water_table_measure(trl_context *ctx, const trl_scene *scene,
         return TRL_ERROR_INVALID;
     }
     TRL_REQUIRE(ctx, scene != NULL && out != NULL);
-    trl_result result = check_ocean(ctx, scene);
+    trl_result result = water_check_ocean(ctx, scene);
     double nm[VOLUME_WAVELENGTHS];
     for (int k = 0; k < VOLUME_WAVELENGTHS; k++) {
         nm[k] = 400 + 20 * k;

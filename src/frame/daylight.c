@@ -52,3 +52,19 @@ void daylight_albedo(const struct medium *medium, const struct spectrum *albedo,
     rgb[1] = divide(reflected.g, light.g);
     rgb[2] = divide(reflected.b, light.b);
 }
+
+void daylight_weights(const struct medium *medium, const double *nm, int count,
+                      double rgb[3][DAYLIGHT_MAX_WEIGHTS])
+{
+    const struct cie_rgb light = cie_rgb_of_xyz(integrate(medium, NULL));
+    for (int k = 0; k < count; k++) {
+        const struct spectrum hat = {.constant = 1,
+                                     .hat = {.from_nm = k > 0 ? nm[k - 1] : 0,
+                                             .peak_nm = nm[k],
+                                             .to_nm = k + 1 < count ? nm[k + 1] : 0}};
+        const struct cie_rgb reflected = cie_rgb_of_xyz(integrate(medium, &hat));
+        rgb[0][k] = light.r > 0 ? reflected.r / light.r : 0;
+        rgb[1][k] = light.g > 0 ? reflected.g / light.g : 0;
+        rgb[2][k] = light.b > 0 ? reflected.b / light.b : 0;
+    }
+}

@@ -53,7 +53,7 @@ static struct sky_desc describe_sky(const struct frame *frame)
                              .wavelengths = frame->wavelengths,
                              .orders = frame->orders,
                              .rayleigh = &frame->rayleigh,
-                             .sea = &frame->sea,
+                             .sea = &frame->sea.sea,
                              .body_count = frame->scene->body_count,
                              .bodies = frame->bodies};
 }
@@ -141,8 +141,10 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
                           .orders = desc->orders,
                           .rayleigh = desc->rayleigh};
     describe_bodies(out);
-    frame_describe_sea(desc->scene, &out->sea);
-    trl_result result = medium_copy(desc->ctx, &desc->scene->medium, &out->medium);
+    trl_result result = frame_sea_init(desc->ctx, desc->scene, &out->sea);
+    if (result == TRL_OK) {
+        result = medium_copy(desc->ctx, &desc->scene->medium, &out->medium);
+    }
     if (result == TRL_OK) {
         out->glow_m = find_glow_m(&out->medium);
         result = open_gpu(desc, &out->gpu);
@@ -194,6 +196,7 @@ void frame_finish(struct frame *frame)
         ground_finish(&frame->ground);
     }
     gpu_destroy(&frame->gpu);
+    frame_sea_finish(&frame->sea);
     medium_finish(frame->ctx, &frame->medium);
     *frame = (struct frame){0};
 }

@@ -22,6 +22,7 @@
 #include "frame/edges.h"
 #include "frame/exposure.h"
 #include "frame/ground.h"
+#include "frame/sea.h"
 #include "frame/tone.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
@@ -51,7 +52,7 @@ struct frame {
     struct sky skies[SKY_MODELS]; // by trl_sky_model; made when first asked for
     struct space space;
     struct body_desc bodies[SCENE_MAX_BODIES]; // the scene's
-    struct sky_sea sea;
+    struct frame_sea sea;
     trl_sky_model sky_model; // that frames are drawn with
     struct sky_spheres spheres;
     trl_air air;

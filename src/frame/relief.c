@@ -3,7 +3,7 @@
 #include "frame/relief.h"
 
 #include "frame/ground.h"
-#include "frame/sea.h"
+#include "sky/sea_volume.h"
 #include "terrain/look.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static trl_result init(const trl_context *ctx, const struct trl_scene *scene, bo
                        struct relief *out)
 {
     *out = (struct relief){.lights_cd_m2 = ground_find_lights_cd_m2(scene)};
-    frame_describe_sea(scene, &out->sea);
+    trl_result result = frame_sea_init(ctx, scene, &out->sea);
     struct surface_layer_desc layers[SCENE_MAX_LAYERS];
     struct surface_desc desc;
     ground_describe(ctx, scene, layers, &desc);
@@ -33,7 +33,9 @@ static trl_result init(const trl_context *ctx, const struct trl_scene *scene, bo
         // Paths meet the ground many times: they would spend most of it on decimetres.
         desc.detail = (struct surface_detail){0};
     }
-    trl_result result = trl_progress(ctx, "reading rasters", 0);
+    if (result == TRL_OK) {
+        result = trl_progress(ctx, "reading rasters", 0);
+    }
     if (result == TRL_OK) {
         result = surface_init_on_cpu(ctx, &desc, &out->surface);
     }
@@ -62,6 +64,7 @@ void relief_finish(struct relief *relief)
 {
     terrain_ceiling_finish(&relief->ceiling);
     surface_finish(&relief->surface);
+    frame_sea_finish(&relief->sea);
     *relief = (struct relief){0};
 }
 
@@ -102,25 +105,37 @@ static void look(const void *user, struct vec3 direction, struct reference_look 
     out->has_colour = surface_picture(surface, SURFACE_COLOUR, direction, out->albedo_rgb);
     out->has_colour = out->has_colour || has_biomes;
     surface_picture(surface, SURFACE_LIGHTS, direction, out->glow_rgb);
-    double code = 0;
-    out->water = relief->sea.is_there ? surface_water(surface, direction, &code) : 0;
-    const float *volume = relief->sea.water[lrint(code * (SKY_SEA_DEPTHS - 1))];
+    out->water = relief->sea.sea.is_there ? surface_water(surface, direction, &out->depth_code) : 0;
+}
+
+static void find_volume(const void *user, double depth_code, const struct reference_rays *rays,
+                        double rgb[3])
+{
+    const struct relief *relief = user;
+    const struct sea_volume_rays same = {rays->light_mu, rays->view_mu, rays->azimuth_cosine};
+    struct sea_volume_colour colour;
+    sea_volume_at(relief->sea.volume, depth_code, &same, &colour);
     for (int c = 0; c < 3; c++) {
-        out->water_rgb[c] = (double)volume[c];
+        rgb[c] = fmax(colour.star[c], 0);
     }
 }
 
 struct reference_surface relief_surface(const struct relief *relief)
 {
-    return (struct reference_surface){.user = relief,
-                                      .lowest_m = surface_min_altitude(&relief->surface),
-                                      .highest_m = surface_max_altitude(&relief->surface),
-                                      .sea = {fmax(relief->sea.mean_square_slope, 1e-6),
-                                              relief->sea.index, relief->sea.white_share,
-                                              relief->sea.white_albedo},
-                                      .white_cd_m2 = relief->lights_cd_m2,
-                                      .altitude_m = find_altitude,
-                                      .step_m = find_step,
-                                      .is_below = is_below,
-                                      .look = look};
+    const struct sky_sea *sea = &relief->sea.sea;
+    return (struct reference_surface){
+        .user = relief,
+        .lowest_m = surface_min_altitude(&relief->surface),
+        .highest_m = surface_max_altitude(&relief->surface),
+        .sea = {.mean_square_slope = fmax(sea->mean_square_slope, 1e-6),
+                .index = sea->index,
+                .white_share = sea->white_share,
+                .white_albedo = sea->white_albedo,
+                .user = relief,
+                .volume = sea->volume ? find_volume : NULL},
+        .white_cd_m2 = relief->lights_cd_m2,
+        .altitude_m = find_altitude,
+        .step_m = find_step,
+        .is_below = is_below,
+        .look = look};
 }

@@ -4,9 +4,9 @@
 #define FRAME_RELIEF_H
 // The ground of a scene as the path tracer asks for it: on the CPU, without OpenGL.
 
+#include "frame/sea.h"
 #include "reference/surface.h"
 #include "scene/scene.h"
-#include "sky/sea.h"
 #include "terrain/ceiling.h"
 
 struct relief {
@@ -14,7 +14,7 @@ struct relief {
     struct surface surface;
     struct terrain_ceiling ceiling;
     double lights_cd_m2;
-    struct sky_sea sea;
+    struct frame_sea sea;
 };
 
 // Reads the rasters of a scene, which must outlive the relief. As surface_init_on_cpu.

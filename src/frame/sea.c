@@ -4,32 +4,99 @@
 
 #include "frame/daylight.h"
 #include "ocean/sea.h"
+#include "ocean/volume.h"
 #include "ocean/water.h"
 #include "shared/sea.glsl"
+
+#include <math.h>
+
+_Static_assert((int)SKY_SEA_ANGLES == (int)VOLUME_ANGLES, "angles are the table's");
+_Static_assert((int)SKY_SEA_ORDERS == (int)VOLUME_ORDERS, "orders are the table's");
 
 // Where the eye sees most.
 static const double MIDDLE_NM = 555;
 
-enum { WAVELENGTHS = 48, FIRST_NM = 360, STEP_NM = 10 };
+// Where the water's spectra are known.
+static const double FIRST_NM = 400, STEP_NM = 20;
 
-void frame_describe_sea(const struct trl_scene *scene, struct sky_sea *out)
+struct colours {
+    const struct volume_table *table;
+    double weights[3][DAYLIGHT_MAX_WEIGHTS];
+};
+
+static void store(const struct colours *colours, const double spectrum[VOLUME_WAVELENGTHS],
+                  float rgb[3])
+{
+    const double index = colours->table->index;
+    for (int c = 0; c < 3; c++) {
+        double sum = 0;
+        for (int k = 0; k < VOLUME_WAVELENGTHS; k++) {
+            sum += colours->weights[c][k] * spectrum[k];
+        }
+        rgb[c] = (float)(sum * M_PI / (index * index));
+    }
+}
+
+static void fill_depth(const struct colours *colours, int depth, struct sky_sea_volume *out)
+{
+    // The code 0 stands for all that is deeper.
+    const double depth_m = depth > 0 ? sea_code_depth((double)depth / (SKY_SEA_DEPTHS - 1)) : 1e6;
+    for (int pair = 0; pair < SKY_SEA_ANGLES * SKY_SEA_ANGLES; pair++) {
+        const int view = pair / SKY_SEA_ANGLES, sun = pair % SKY_SEA_ANGLES;
+        struct volume_entry entry;
+        volume_table_entry(colours->table, depth_m, sun, view, &entry);
+        for (int m = 0; m < SKY_SEA_ORDERS; m++) {
+            store(colours, entry.star[m], out->rgb[view][m * SKY_SEA_ANGLES + sun][depth]);
+        }
+        store(colours, entry.sky, out->rgb[view][SKY_SEA_ROWS - 1][depth]);
+    }
+}
+
+trl_result frame_sea_make_volume(const trl_context *ctx, const struct ocean_desc *ocean,
+                                 const struct medium *medium, struct sky_sea_volume **out)
+{
+    *out = NULL;
+    double nm[VOLUME_WAVELENGTHS];
+    for (int k = 0; k < VOLUME_WAVELENGTHS; k++) {
+        nm[k] = FIRST_NM + STEP_NM * k;
+    }
+    struct volume_table *table = NULL;
+    trl_result result = volume_table_make(ctx, ocean, nm, VOLUME_WAVELENGTHS, &table);
+    if (result == TRL_OK) {
+        *out = mem_alloc(ctx, 1, sizeof **out);
+        result = *out ? TRL_OK : TRL_ERROR_MEMORY;
+    }
+    if (result == TRL_OK) {
+        struct colours colours = {.table = table};
+        daylight_weights(medium, nm, VOLUME_WAVELENGTHS, colours.weights);
+        (*out)->critical = table->critical;
+#pragma omp parallel for schedule(dynamic)
+        for (int i = 0; i < SKY_SEA_DEPTHS; i++) {
+            fill_depth(&colours, i, *out);
+        }
+    }
+    volume_table_destroy(ctx, &table);
+    return result;
+}
+
+trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
+                          struct frame_sea *out)
 {
     const struct ocean_desc *ocean = &scene->ocean;
-    *out = (struct sky_sea){.is_there = ocean->is_there,
-                            .mean_square_slope = sea_mean_square_slope(&ocean->waves),
-                            .index = water_refractive_index(&ocean->water, MIDDLE_NM),
-                            .white_share = sea_whitecap_share(&ocean->waves),
-                            .white_albedo = SEA_WHITECAP_ALBEDO};
-    for (int i = 0; ocean->is_there && i < SKY_SEA_DEPTHS; i++) {
-        double nm[WAVELENGTHS], albedo[WAVELENGTHS];
-        // The code 0 stands for all that is deeper.
-        const double depth_m = i > 0 ? sea_code_depth((double)i / (SKY_SEA_DEPTHS - 1)) : 1e6;
-        for (int k = 0; k < WAVELENGTHS; k++) {
-            nm[k] = FIRST_NM + STEP_NM * k;
-            albedo[k] = sea_water_albedo(ocean, depth_m, nm[k]);
-        }
-        const struct spectrum spectrum = {.kind = SPECTRUM_TABLE,
-                                          .table = {nm, albedo, WAVELENGTHS}};
-        daylight_albedo(&scene->medium, &spectrum, out->water[i]);
-    }
+    *out = (struct frame_sea){.ctx = ctx,
+                              .sea = {.is_there = ocean->is_there,
+                                      .mean_square_slope = sea_mean_square_slope(&ocean->waves),
+                                      .index = water_refractive_index(&ocean->water, MIDDLE_NM),
+                                      .white_share = sea_whitecap_share(&ocean->waves),
+                                      .white_albedo = SEA_WHITECAP_ALBEDO}};
+    const trl_result result =
+        ocean->is_there ? frame_sea_make_volume(ctx, ocean, &scene->medium, &out->volume) : TRL_OK;
+    out->sea.volume = out->volume;
+    return result;
+}
+
+void frame_sea_finish(struct frame_sea *sea)
+{
+    mem_free(sea->ctx, sea->volume);
+    *sea = (struct frame_sea){0};
 }

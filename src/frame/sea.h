@@ -7,6 +7,22 @@
 #include "scene/scene.h"
 #include "sky/sea.h"
 
-void frame_describe_sea(const struct trl_scene *scene, struct sky_sea *out);
+struct frame_sea {
+    const trl_context *ctx;
+    struct sky_sea sea; // with the volume, if it is there
+    struct sky_sea_volume *volume;
+};
+
+// Solves the light in the water: half a second of processor time where there is an ocean.
+// TRL_ERROR_MEMORY; *out is to be finished then too.
+TRL_MUST_USE trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
+                                       struct frame_sea *out);
+void frame_sea_finish(struct frame_sea *sea);
+
+// The colours of water in that star's light. TRL_ERROR_MEMORY; free it with mem_free.
+TRL_MUST_USE trl_result frame_sea_make_volume(const trl_context *ctx,
+                                              const struct ocean_desc *ocean,
+                                              const struct medium *medium,
+                                              struct sky_sea_volume **out);
 
 #endif // FRAME_SEA_H

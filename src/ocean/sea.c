@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "ocean/sea.h"
 
-#include "ocean/water.h"
 #include "shared/fresnel.glsl"
 #include "shared/sea.glsl"
 
@@ -57,25 +56,4 @@ double sea_diffuse_reflectance(double index)
         sum += fresnel_reflectance(sqrt((i + 0.5) / STEPS), index);
     }
     return sum / STEPS;
-}
-
-// Mean cosine of light going down: Gordon, Brown and Jacobs 1975 have 0.75 to 0.95 in the sea.
-static const double DOWNWARD_COSINE = 0.85;
-
-// Irradiance reflectance below the surface: deep water 0.33 b_b / (a + b_b) (Morel and Prieur 1977,
-// Limnol. Oceanogr. 22), and above a bed of that albedo by Maritorena, Morel and Gentili 1994,
-// Limnol. Oceanogr. 39, Eq. 9a.
-double sea_water_albedo(const struct ocean_desc *ocean, double depth_m, double nm)
-{
-    const struct water_optics o = water_optics_at(&ocean->water, nm);
-    const double back = o.clear_per_m / 2 + o.particles_per_m * o.backscatter;
-    const double sum = fmax(o.absorption_per_m + back, 1e-12);
-    const double deep = 0.33 * back / sum;
-    const double left = exp(-2 * sum / DOWNWARD_COSINE * depth_m);
-    const double below = deep + (spectrum_at(&ocean->bed.albedo, nm) - deep) * left;
-    // Light goes back and forth below the surface, whose inner reflectance follows from the outer
-    // one by reciprocity.
-    const double index = water_refractive_index(&ocean->water, nm);
-    const double inner = 1 - (1 - sea_diffuse_reflectance(index)) / (index * index);
-    return below / (1 - inner * below) / (index * index);
 }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #ifndef OCEAN_SEA_H
 #define OCEAN_SEA_H
-// The sea as what lights it sees: how rough it is, how much of it is white, what comes back out of
-// the water. docs/physics.md, *The sea*.
+// The sea as what lights it sees: how rough it is, how much of it is white. docs/physics.md, *The
+// sea*.
 
 #include "ocean/ocean.h"
 
@@ -28,9 +28,5 @@ struct sea_foam_ramp sea_foam_find(double share);
 
 // Reflectance of a smooth boundary for light that comes from everywhere alike, from above.
 double sea_diffuse_reflectance(double index);
-
-// What comes out of the water, as albedo: pi times radiance that leaves upward per irradiance
-// below the surface, without the loss of the radiance at the boundary (1 - Fresnel of the view).
-double sea_water_albedo(const struct ocean_desc *ocean, double depth_m, double nm);
 
 #endif // OCEAN_SEA_H

@@ -69,6 +69,15 @@ void volume_table_destroy(const trl_context *ctx, struct volume_table **table);
 void volume_table_at(const struct volume_table *table, double depth_m,
                      const struct volume_view *view, struct volume_light out[VOLUME_WAVELENGTHS]);
 
+// What goes up below the surface for one of the table's suns and one of its views.
+struct volume_entry {
+    double star[VOLUME_ORDERS][VOLUME_WAVELENGTHS]; // per irradiance that has entered: as the
+                                                    // table's own
+    double sky[VOLUME_WAVELENGTHS];                 // per irradiance of level water from above
+};
+void volume_table_entry(const struct volume_table *table, double depth_m, int sun, int view,
+                        struct volume_entry *out);
+
 // Depth beyond which the bed makes no difference: exp(-24) of light comes back.
 double volume_deep_m(const struct volume_column *column);
 

@@ -17,6 +17,11 @@ static double table_depth_m(int i)
     return i == 0 ? 0 : VOLUME_SHALLOWEST_M * exp2((i - 1) / 2) * (i % 2 ? 1 : 1.5);
 }
 
+static double angle_mu(const struct volume_table *table, int i)
+{
+    return table->critical + (1 - table->critical) * i / (VOLUME_ANGLES - 1);
+}
+
 // One wavelength and one azimuth order on its way through the depths.
 struct work {
     struct volume_table *table;
@@ -152,8 +157,7 @@ static void begin(struct volume_table *table, int wavelength, struct work *w)
     double others[VOLUME_ANGLES];
     for (int i = 0; i < VOLUME_ANGLES; i++) {
         // Straight down has no azimuth.
-        others[i] =
-            fmin(table->critical + (1 - table->critical) * i / (VOLUME_ANGLES - 1), 1 - 1e-4);
+        others[i] = fmin(angle_mu(table, i), 1 - 1e-4);
     }
     slab_grid_init(table->critical, others, VOLUME_ANGLES, &w->grid);
     for (int i = 0; i < COUNT; i++) {
@@ -273,5 +277,21 @@ void volume_table_at(const struct volume_table *table, double depth_m,
             .star = leaves * enters * (star[0] + (star[1] - star[0]) * d.part),
             .sky = leaves * (sky_at(table, d.first, k, at.view) * (1 - d.part) +
                              sky_at(table, d.first + 1, k, at.view) * d.part)};
+    }
+}
+
+void volume_table_entry(const struct volume_table *table, double depth_m, int sun, int view,
+                        struct volume_entry *out)
+{
+    const double way = 1 / angle_mu(table, sun) + 1 / angle_mu(table, view);
+    for (int k = 0; k < table->count; k++) {
+        const struct cell d = depth_cell(table, k, depth_m, way);
+        for (int m = 0; m < VOLUME_ORDERS; m++) {
+            const double low = (double)table->star[d.first][sun][view][m][k];
+            const double high = (double)table->star[d.first + 1][sun][view][m][k];
+            out->star[m][k] = low + (high - low) * d.part;
+        }
+        const double low = (double)table->sky[d.first][view][k];
+        out->sky[k] = low + ((double)table->sky[d.first + 1][view][k] - low) * d.part;
     }
 }

@@ -43,7 +43,6 @@ struct flight {
     lanes4 end_transmittance;
     struct reference_look look; // where it hits the ground
     lanes4 albedo, glow;
-    lanes4 volume; // of the water, where there is some
 };
 
 // How far toward the sun from the planet's centre a ray begins, and how fast it goes there.
@@ -140,7 +139,6 @@ static void look_at_ground(const struct reference_tracer *tracer, const struct r
     lanes4 albedo = {0};
     for (int c = 0; c < 3; ++c) {
         albedo += tracer->colour_albedo[c] * flight->look.albedo_rgb[c];
-        flight->volume += tracer->colour_albedo[c] * flight->look.water_rgb[c];
         flight->glow += tracer->colour_albedo[c] * flight->look.glow_rgb[c];
     }
     flight->glow *= tracer->glow;
@@ -149,7 +147,6 @@ static void look_at_ground(const struct reference_tracer *tracer, const struct r
             flight->albedo[k] = fmin(fmax(albedo[k], 0), 1);
         }
         flight->glow[k] = fmax(flight->glow[k], 0);
-        flight->volume[k] = fmin(fmax(flight->volume[k], 0), 1);
     }
 }
 
@@ -328,7 +325,8 @@ static void hit_ground(const struct reference_tracer *tracer, const struct fligh
     if (path->is_on_sea) {
         path->facets = (struct reference_facets){.up = vec3_normalize(at),
                                                  .view = vec3_scale(path->direction, -1),
-                                                 .volume = flight->volume};
+                                                 .depth_code = flight->look.depth_code,
+                                                 .colour_albedo = tracer->colour_albedo};
     } else {
         path->weight *= flight->albedo;
     }

@@ -37,6 +37,26 @@ static double normal_density(const struct reference_sea *sea, double mu)
     return mu > 1e-3 ? exp(-(1 / mu2 - 1) / mss) / (pi * mss * mu2 * mu) : 0;
 }
 
+static lanes4 volume_between(const struct reference_sea *sea, const struct reference_facets *place,
+                             struct vec3 light, const struct reference_rays *mus)
+{
+    lanes4 sum = {0};
+    if (!sea->volume) {
+        return sum;
+    }
+    struct reference_rays rays = *mus;
+    const double sines =
+        sqrt((1 - rays.light_mu * rays.light_mu) * (1 - rays.view_mu * rays.view_mu));
+    const double level = vec3_dot(light, place->view) - rays.light_mu * rays.view_mu;
+    rays.azimuth_cosine = sines > 1e-9 ? fmin(fmax(-level / sines, -1), 1) : 1;
+    double rgb[3];
+    sea->volume(sea->user, place->depth_code, &rays, rgb);
+    for (int c = 0; c < 3; c++) {
+        sum += place->colour_albedo[c] * rgb[c];
+    }
+    return sum;
+}
+
 lanes4 reference_sea_value(const struct reference_sea *sea, const struct reference_facets *place,
                            struct vec3 light)
 {
@@ -54,7 +74,8 @@ lanes4 reference_sea_value(const struct reference_sea *sea, const struct referen
     const double through = (1 - reflect(view_mu, sea->index)) * (1 - reflect(light_mu, sea->index));
     return lanes4_set((1 - sea->white_share) * glint +
                       sea->white_share * sea->white_albedo * light_mu / pi) +
-           place->volume * ((1 - sea->white_share) * through * light_mu / pi);
+           volume_between(sea, place, light, &(struct reference_rays){light_mu, view_mu, 1}) *
+               ((1 - sea->white_share) * through * light_mu / pi);
 }
 
 struct vec3 reference_sea_draw(const struct reference_sea *sea,

@@ -3,24 +3,37 @@
 #ifndef REFERENCE_SEA_H
 #define REFERENCE_SEA_H
 // Open water as paths meet it: the mean rough surface, facets of normally distributed slopes, over
-// a volume that sends light back as Lambert's law has it. Written apart from what pictures use.
+// a volume that the caller knows. Written apart from what pictures use.
 
 #include "base/vec3.h"
 #include "reference/lanes.h"
 #include "reference/random.h"
+
+// Cosines of zenith angles, of the light and of the view, and of the azimuth of the line of sight
+// from where the light comes from.
+struct reference_rays {
+    double light_mu, view_mu, azimuth_cosine;
+};
 
 struct reference_sea {
     double mean_square_slope; // > 0, along and across together
     double index;             // refractive
     double white_share;       // of the surface, Lambertian with that albedo
     double white_albedo;
+    // What comes out of the water, as linear sRGB relative to white in the star's light: pi times
+    // the radiance that leaves per irradiance that has entered, without what the surface takes of
+    // it. NULL: nothing.
+    const void *user;
+    void (*volume)(const void *user, double depth_code, const struct reference_rays *rays,
+                   double rgb[3]);
 };
 
-// A place of it: unit vectors to the zenith and to where the path came from; albedo of the volume
-// as of struct sky_sea.
+// A place of it: unit vectors to the zenith and to where the path came from; how deep it is; the
+// albedo of red, green and blue.
 struct reference_facets {
     struct vec3 up, view;
-    lanes4 volume;
+    double depth_code;
+    const lanes4 *colour_albedo;
 };
 
 // What goes from one direction to the other, times the cosine of the incident light: sr^-1.

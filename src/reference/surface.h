@@ -15,9 +15,9 @@ struct reference_look {
     struct vec3 normal; // unit
     bool has_colour;    // else its albedo is the medium's
     double albedo_rgb[3];
-    double water;        // part that is open water, which reflects as the surface's sea does
-    double water_rgb[3]; // albedo of its volume: struct reference_facets
-    double glow_rgb[3];  // light of its own: 1 is white of `white_cd_m2`
+    double water;       // part that is open water, which reflects as the surface's sea does
+    double depth_code;  // of that: struct reference_facets
+    double glow_rgb[3]; // light of its own: 1 is white of `white_cd_m2`
 };
 
 // Functions may be called from many threads. Directions are from the planet's centre, of any

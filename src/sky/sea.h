@@ -9,15 +9,26 @@
 // Depths of the table: codes of shared/sea.glsl, from the deep to the shore.
 enum { SKY_SEA_DEPTHS = 64 };
 
+// What comes out of the water: linear sRGB relative to white in the star's light, pi times the
+// radiance that leaves upward per irradiance, without the loss of the radiance at the surface
+// (1 - Fresnel of the view). Angles are cosines of refracted rays, evenly from `critical`, that of
+// grazing ones, to 1. Rows: for each order m of azimuth all stars, per irradiance that has entered
+// the water, the coefficient of cos(m azimuth) over the power m of both rays' sines; then the even
+// sky, per irradiance from above.
+enum { SKY_SEA_ANGLES = 12, SKY_SEA_ORDERS = 3 };
+enum { SKY_SEA_ROWS = SKY_SEA_ORDERS * SKY_SEA_ANGLES + 1 };
+struct sky_sea_volume {
+    double critical;
+    float rgb[SKY_SEA_ANGLES][SKY_SEA_ROWS][SKY_SEA_DEPTHS][3]; // [view][row][depth]
+};
+
 struct sky_sea {
     bool is_there;
     double mean_square_slope; // of what the surface buffers do not show as normals
     double index;             // refractive, at the middle of what is seen
     double white_share;       // of the surface, with that albedo
     double white_albedo;
-    // Reflectance of the water below the surface, linear sRGB: pi times the radiance that leaves,
-    // per irradiance below the surface, without the Fresnel loss of the radiance.
-    float water[SKY_SEA_DEPTHS][3];
+    const struct sky_sea_volume *volume; // must outlive the sea; NULL where it is not there
 };
 
 // Reflectance of the surface from above for a ray with that cosine, over the facets that it sees,

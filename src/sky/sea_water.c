@@ -3,6 +3,7 @@
 #include "sky/sea_water.h"
 
 #include "shared/sea.glsl"
+#include "sky/sea_volume.h"
 
 #include <math.h>
 
@@ -12,9 +13,15 @@ void sea_water_init(const struct sky_desc *desc, struct sea_water *out)
                               .disc_slope = sea_disc_slope(desc->medium->star_angular_radius_rad)};
 }
 
-void sea_water_finish(struct sea_water *water)
+void sea_water_drop(struct sea_water *water)
 {
     gpu_texture_finish(&water->texture);
+    gpu_texture_finish(&water->volume);
+}
+
+void sea_water_finish(struct sea_water *water)
+{
+    sea_water_drop(water);
     reflection_finish(&water->reflection);
     *water = (struct sea_water){0};
 }
@@ -24,21 +31,13 @@ bool sea_water_is_seen(const struct sea_water *water, const struct sky_view *vie
     return water->sea && !sky_view_is_bare(view);
 }
 
-static void fill(const struct sky_sea *sea, const struct bands *bands, float *texels)
+enum { VIEWS = 64 };
+
+static void fill(const struct sky_sea *sea, float *surface)
 {
-    for (int i = 0; i < SKY_SEA_DEPTHS; i++) {
-        for (int b = 0; b < BAND_COUNT; b++) {
-            float sum = !bands && b < 3 ? sea->water[i][b] : 0;
-            for (int k = 0; bands && k < 3; k++) {
-                sum += bands->bands_from_rgb[b][k] * sea->water[i][k];
-            }
-            texels[i * BAND_COUNT + b] = fmaxf(sum, 0);
-        }
-    }
-    float *surface = texels + SKY_SEA_DEPTHS * BAND_COUNT;
-    for (int i = 0; i < SEA_LEVELS * SKY_SEA_DEPTHS; i++) {
-        const struct sky_sea rough = sea_at_level(sea, i / SKY_SEA_DEPTHS);
-        const double root = fmax((double)(i % SKY_SEA_DEPTHS) / (SKY_SEA_DEPTHS - 1), 0.02);
+    for (int i = 0; i < SEA_LEVELS * VIEWS; i++) {
+        const struct sky_sea rough = sea_at_level(sea, i / VIEWS);
+        const double root = fmax((double)(i % VIEWS) / (VIEWS - 1), 0.02);
         double mirror_mu;
         surface[i * BAND_COUNT] = (float)sea_surface_reflectance(&rough, root * root, &mirror_mu);
         surface[i * BAND_COUNT + 1] = (float)mirror_mu;
@@ -50,15 +49,16 @@ trl_result sea_water_prepare(struct sea_water *water, struct gpu *gpu, const str
     if (!water->sea || water->texture.name) {
         return TRL_OK;
     }
-    float texels[(1 + SEA_LEVELS) * SKY_SEA_DEPTHS * BAND_COUNT] = {0};
-    fill(water->sea, bands, texels);
+    float texels[SEA_LEVELS * VIEWS * BAND_COUNT] = {0};
+    fill(water->sea, texels);
     struct gpu_texture_desc desc = gpu_texture_desc_default();
-    desc.label = "water";
+    desc.label = "surface of water";
     desc.format = GPU_FORMAT_RGBA16F;
-    desc.width = SKY_SEA_DEPTHS;
-    desc.height = 1 + SEA_LEVELS;
+    desc.width = VIEWS;
+    desc.height = SEA_LEVELS;
     desc.data = texels;
-    return gpu_texture_init(gpu, &desc, &water->texture);
+    const trl_result result = sea_volume_make(gpu, water->sea->volume, bands, &water->volume);
+    return result == TRL_OK ? gpu_texture_init(gpu, &desc, &water->texture) : result;
 }
 
 // Ground that does not rise above the water is mirrored by none.
@@ -90,9 +90,14 @@ void sea_water_set(const struct sea_water *water, const struct sky_view *view,
 {
     float surface[4];
     find_surface(water, surface);
+    const float critical = (float)water->sea->volume->critical;
+    const float volume[4] = {critical, (float)(SKY_SEA_ANGLES - 1) / (1 - critical),
+                             sqrtf(1 - critical * critical), 1.0f / SKY_SEA_DEPTHS};
     gpu_program_set_texture(program, "u_water", &water->texture);
+    gpu_program_set_texture(program, "u_sea_volume", &water->volume);
+    gpu_program_set_vec4(program, "u_sea_volume_map", volume);
     gpu_program_set_float(program, "u_shadowed", view->is_added == view->moon.is_main ? 1 : 0);
-    gpu_program_set_float(program, "u_sea_texel", 1.0f / SKY_SEA_DEPTHS);
+    gpu_program_set_float(program, "u_sea_texel", 1.0f / VIEWS);
     if (view->surface.facets) {
         gpu_program_set_texture(program, "u_facets", view->surface.facets);
         gpu_program_set_float(program, "u_disc_slope", (float)water->disc_slope);

@@ -9,14 +9,17 @@
 #include "sky/reflection.h"
 
 struct sea_water {
-    const struct sky_sea *sea; // NULL: none
-    double disc_slope;         // by which the star's disc makes its glint broader
-    struct gpu_texture texture;
+    const struct sky_sea *sea;    // NULL: none
+    double disc_slope;            // by which the star's disc makes its glint broader
+    struct gpu_texture texture;   // what its surface reflects
+    struct gpu_texture volume;    // of sky/sea_volume.h
     struct reflection reflection; // of terrain, in the last view
 };
 
 void sea_water_init(const struct sky_desc *desc, struct sea_water *out);
 void sea_water_finish(struct sea_water *water);
+// Forgets the textures: their bands are no longer those of the light.
+void sea_water_drop(struct sea_water *water);
 
 // Whether the view may show open water.
 bool sea_water_is_seen(const struct sea_water *water, const struct sky_view *view);

@@ -19,7 +19,7 @@ void spectral_sea_drop(struct spectral_sea *sea)
         sea->has_program[i] = false;
     }
     gpu_texture_finish(&sea->mirror);
-    gpu_texture_finish(&sea->water.texture); // its bands are the atmosphere's
+    sea_water_drop(&sea->water); // its bands are the atmosphere's
     sea->has_mirror = false;
 }
 

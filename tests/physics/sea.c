@@ -152,33 +152,6 @@ static void wind_makes_slopes_and_whitecaps(void **state)
     assert_close(sea_whitecap_share(&waves), 0, 0);
 }
 
-static void water_has_the_colour_of_its_depth(void **state)
-{
-    (void)state;
-    const struct ocean_desc sea = {.water = {.chlorophyll_mg_m3 = 0.1, .dissolved_per_m_440 = 0.01},
-                                   .bed.albedo = {.constant = 0.3}};
-    // Irradiance reflectance of clear blue sea below the surface: 3 to 6 % in the blue, far less
-    // than a hundredth in the red (Morel and Prieur 1977, Figure 2).
-    const double factor = 1.34 * 1.34;
-    assert_true(factor * sea_water_albedo(&sea, 1e6, 440) > 0.03);
-    assert_true(factor * sea_water_albedo(&sea, 1e6, 440) < 0.07);
-    assert_true(factor * sea_water_albedo(&sea, 1e6, 650) < 0.003);
-    // No water: the bed behind the surface, with the light that goes back and forth.
-    const double inner = 1 - (1 - walsh(1.34)) / factor;
-    assert_close(sea_water_albedo(&sea, 0, 550), 0.3 / (1 - inner * 0.3) / factor, 1e-4);
-    double before = 1;
-    for (double depth = 0; depth < 100; depth += 5) {
-        const double green = sea_water_albedo(&sea, depth, 550);
-        assert_true(green < before);
-        before = green;
-    }
-    // Mud makes it brighter and browner.
-    struct ocean_desc river = sea;
-    river.water.mud_g_m3 = 50;
-    assert_true(sea_water_albedo(&river, 1e6, 650) > sea_water_albedo(&river, 1e6, 440));
-    assert_true(sea_water_albedo(&river, 1e6, 650) > 20 * sea_water_albedo(&sea, 1e6, 650));
-}
-
 static void depths_come_back_from_their_codes(void **state)
 {
     (void)state;
@@ -232,7 +205,6 @@ int main(void)
         cmocka_unit_test(paths_meet_the_same_surface),
         cmocka_unit_test(wind_makes_slopes_and_whitecaps),
         cmocka_unit_test(foam_covers_what_the_wind_makes_of_whitecaps),
-        cmocka_unit_test(water_has_the_colour_of_its_depth),
         cmocka_unit_test(depths_come_back_from_their_codes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,9 +10,13 @@
 #include <math.h>
 
 #include "context.h"
+#include "frame/daylight.h"
+#include "frame/sea.h"
 #include "ocean/volume.h"
 #include "reference/water.h"
 #include "shared/fresnel.glsl"
+#include "shared/sea.glsl"
+#include "sky/sea_volume.h"
 
 static void assert_near(double got, double wanted, double share)
 {
@@ -226,6 +230,67 @@ static void the_table_says_the_same(void **state)
     }
 }
 
+// Linear sRGB of the solution at twice as many wavelengths as the table has.
+static void solve_colour(const trl_context *ctx, const struct ocean_desc *ocean,
+                         const struct medium *medium, double depth_m,
+                         const struct volume_view *view, struct sea_volume_colour *out)
+{
+    enum { COUNT = 33 };
+    double nm[COUNT], weights[3][DAYLIGHT_MAX_WEIGHTS];
+    for (int k = 0; k < COUNT; k++) {
+        nm[k] = 390 + 10 * k;
+    }
+    daylight_weights(medium, nm, COUNT, weights);
+    *out = (struct sea_volume_colour){0};
+    for (int k = 0; k < COUNT; k++) {
+        const struct volume_column column = volume_column_make(ocean, depth_m, nm[k]);
+        const struct volume_light light = solve(ctx, &column, *view);
+        for (int c = 0; c < 3; c++) {
+            out->star[c] += M_PI * weights[c][k] * light.star;
+            out->sky[c] += M_PI * weights[c][k] * light.sky;
+        }
+    }
+}
+
+static void assert_colours_near(const double got[3], const double wanted[3], double share)
+{
+    const double most = fmax(fmax(wanted[0], wanted[1]), wanted[2]);
+    for (int c = 0; c < 3; c++) {
+        if (!(fabs(got[c] - wanted[c]) <= share * most)) {
+            fail_msg("%g %g %g, not %g %g %g", got[0], got[1], got[2], wanted[0], wanted[1],
+                     wanted[2]);
+        }
+    }
+}
+
+// What pictures look up is the colour of the solution, noon and 4 PM.
+static void pictures_have_the_colour_of_the_solution(void **state)
+{
+    const struct medium medium = {.star_irradiance = {.constant = 1.5}};
+    static const double depths_m[] = {2, 4, 10, 100};
+    for (int k = 0; k < KINDS; k++) {
+        const struct ocean_desc ocean = kind(k);
+        struct sky_sea_volume *volume = NULL;
+        assert_int_equal(frame_sea_make_volume(*state, &ocean, &medium, &volume), TRL_OK);
+        for (int i = 0; i < 4; i++) {
+            const struct volume_view view = {0, i % 2 ? 0.94 : 0.5, -0.8, 1};
+            const struct sea_volume_rays rays = {view.sun_mu, 0.8, cos(1)};
+            struct sea_volume_colour wanted, got;
+            solve_colour(*state, &ocean, &medium, depths_m[i], &view, &wanted);
+            sea_volume_at(volume, sea_depth_code(depths_m[i]), &rays, &got);
+            const double index = volume_column_make(&ocean, 1, 555).index;
+            const double leaves = 1 - fresnel_reflectance(0.8, index);
+            for (int c = 0; c < 3; c++) {
+                got.star[c] *= leaves * (1 - fresnel_reflectance(view.sun_mu, index));
+                got.sky[c] *= leaves;
+            }
+            assert_colours_near(got.star, wanted.star, 0.02);
+            assert_colours_near(got.sky, wanted.sky, 0.02);
+        }
+        mem_free(*state, volume);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,6 +300,7 @@ int main(void)
         cmocka_unit_test(absorbing_water_shows_its_bed),
         cmocka_unit_test(depths_and_waters_agree_with_paths),
         cmocka_unit_test(eyes_under_water_agree_with_paths),
-        cmocka_unit_test(the_table_says_the_same)};
+        cmocka_unit_test(the_table_says_the_same),
+        cmocka_unit_test(pictures_have_the_colour_of_the_solution)};
     return cmocka_run_group_tests_name("water", tests, make_context, drop_context);
 }

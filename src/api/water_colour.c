@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the Terrella authors
+// SPDX-License-Identifier: MIT
+#include <terrella/water.h>
+
+#include "api/check.h"
+#include "api/water.h"
+#include "frame/daylight.h"
+#include "frame/sea.h"
+#include "ocean/volume.h"
+#include "shared/fresnel.glsl"
+#include "shared/sea.glsl"
+#include "sky/sea_volume.h"
+
+#include <math.h>
+
+// All that is seen, more finely than tables have it.
+enum { WAVELENGTHS = 41 };
+_Static_assert((int)WAVELENGTHS <= (int)DAYLIGHT_MAX_WEIGHTS, "weights for each");
+static const double FIRST_NM = 360, STEP_NM = 10;
+
+static trl_result trace(const trl_context *ctx, const trl_scene *scene, const trl_water_desc *desc,
+                        const trl_water_query *query, trl_water_colour *out)
+{
+    double nm[WAVELENGTHS], weights[3][DAYLIGHT_MAX_WEIGHTS];
+    for (int k = 0; k < WAVELENGTHS; k++) {
+        nm[k] = FIRST_NM + STEP_NM * k;
+    }
+    daylight_weights(&scene->medium, nm, WAVELENGTHS, weights);
+    *out = (trl_water_colour){0};
+    for (int k = 0; k < WAVELENGTHS; k++) {
+        trl_water_query at = *query;
+        at.wavelength_nm = nm[k];
+        trl_water_light light;
+        water_trace(&scene->ocean, desc, &at, &light);
+        for (int c = 0; c < 3; c++) {
+            out->star_rgb[c] += M_PI * weights[c][k] * light.star_per_sr;
+            out->sky_rgb[c] += M_PI * weights[c][k] * light.sky_per_sr;
+        }
+        const trl_result result = trl_progress(ctx, "light in the water", (k + 1.0) / WAVELENGTHS);
+        if (result != TRL_OK) {
+            return result;
+        }
+    }
+    return TRL_OK;
+}
+
+static void look_up(const struct frame_sea *sea, const trl_water_query *query,
+                    trl_water_colour *out)
+{
+    const struct sea_volume_rays rays = {.sun_mu = cos(query->sun_zenith_rad),
+                                         .view_mu = -cos(query->view_zenith_rad),
+                                         .azimuth_cosine = cos(query->azimuth_rad)};
+    struct sea_volume_colour colour;
+    sea_volume_at(sea->volume, sea_depth_code(query->depth_m), &rays, &colour);
+    const double leaves = 1 - fresnel_reflectance(rays.view_mu, sea->sea.index);
+    const double enters = 1 - fresnel_reflectance(rays.sun_mu, sea->sea.index);
+    for (int c = 0; c < 3; c++) {
+        out->star_rgb[c] = leaves * enters * colour.star[c];
+        out->sky_rgb[c] = leaves * colour.sky[c];
+    }
+}
+
+static trl_result find(const trl_context *ctx, const trl_scene *scene, const trl_water_desc *desc,
+                       const trl_water_query *queries, size_t count, trl_water_colour *colours)
+{
+    struct frame_sea sea = {.ctx = ctx};
+    trl_result result = desc->uses_reference ? TRL_OK : frame_sea_init(ctx, scene, &sea);
+    for (size_t n = 0; n < count && result == TRL_OK; n++) {
+        if (desc->uses_reference) {
+            result = trace(ctx, scene, desc, &queries[n], &colours[n]);
+        } else {
+            look_up(&sea, &queries[n], &colours[n]);
+        }
+    }
+    frame_sea_finish(&sea);
+    return result;
+}
+
+trl_result trl_water_colours(trl_context *ctx, const trl_scene *scene, const trl_water_desc *desc,
+                             const trl_water_query *queries, size_t count,
+                             trl_water_colour *colours)
+{
+    if (!ctx) {
+        return TRL_ERROR_INVALID;
+    }
+    TRL_REQUIRE(ctx, scene != NULL);
+    TRL_REQUIRE(ctx, count == 0 || (queries && colours));
+    const trl_water_desc all = desc ? *desc : trl_water_desc_default();
+    TRL_REQUIRE(ctx, all.canary == WATER_CANARY);
+    TRL_REQUIRE(ctx, all.paths >= 2 && all.paths <= CHECK_MAX_PATHS);
+    trl_result result = water_check_ocean(ctx, scene);
+    for (size_t n = 0; n < count && result == TRL_OK; n++) {
+        trl_water_query query = queries[n];
+        query.wavelength_nm = FIRST_NM;
+        result = water_check_query(ctx, &query, n);
+        if (result == TRL_OK && query.eye_depth_m > 0) {
+            result = trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
+                              "query %zu: colours are for eyes above the water", n + 1);
+        }
+    }
+    return result == TRL_OK ? find(ctx, scene, &all, queries, count, colours) : result;
+}
