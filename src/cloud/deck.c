@@ -3,7 +3,7 @@
 #include "cloud/deck.h"
 
 // The map: texels a side; where they begin to grow, over the eye's way to the clouds, and at least.
-enum { SIDE = 192 };
+enum { SIDE = 128 };
 static const double FINE_PART = 0.5, LEAST_FINE_M = 1500;
 static const double FARTHEST_RAD = 1.45; // the map shows a half of the sphere at most
 
