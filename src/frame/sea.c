@@ -61,7 +61,7 @@ trl_result frame_sea_make_volume(const trl_context *ctx, const struct ocean_desc
         nm[k] = FIRST_NM + STEP_NM * k;
     }
     struct volume_table *table = NULL;
-    trl_result result = volume_table_make(ctx, ocean, nm, VOLUME_WAVELENGTHS, &table);
+    trl_result result = volume_table_get(ctx, ocean, nm, VOLUME_WAVELENGTHS, &table);
     if (result == TRL_OK) {
         *out = mem_alloc(ctx, 1, sizeof **out);
         result = *out ? TRL_OK : TRL_ERROR_MEMORY;

@@ -13,7 +13,8 @@ struct frame_sea {
     struct sky_sea_volume *volume;
 };
 
-// Solves the light in the water: half a second of processor time where there is an ocean.
+// Solves the light in the water: half a second of processor time where there is an ocean, once: the
+// solution is kept on disk.
 // TRL_ERROR_MEMORY; *out is to be finished then too.
 TRL_MUST_USE trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
                                        struct frame_sea *out);

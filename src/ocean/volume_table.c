@@ -165,24 +165,30 @@ static void begin(struct volume_table *table, int wavelength, struct work *w)
     }
 }
 
-trl_result volume_table_make(const trl_context *ctx, const struct ocean_desc *ocean,
-                             const double *nm, int count, struct volume_table **out)
+// All but the light.
+static struct volume_table *describe(const trl_context *ctx, const struct ocean_desc *ocean,
+                                     const double *nm, int count)
 {
-    struct volume_table *table = *out = mem_alloc(ctx, 1, sizeof *table);
-    const int tasks = count * VOLUME_ORDERS;
-    struct work *works = mem_alloc(ctx, (size_t)tasks, sizeof *works);
-    if (!table || !works) {
-        mem_free(ctx, works);
-        volume_table_destroy(ctx, out);
-        return TRL_ERROR_MEMORY;
+    struct volume_table *table = mem_alloc(ctx, 1, sizeof *table);
+    if (table) {
+        table->count = count;
+        // One index for all wavelengths: between 400 and 700 nm that of water changes by 0.9 %.
+        table->index = water_refractive_index(&ocean->water, nm[count / 2]);
+        table->critical = volume_refract(0, table->index);
     }
-    table->count = count;
-    // One index for all wavelengths: between 400 and 700 nm that of water changes by 0.9 %.
-    table->index = water_refractive_index(&ocean->water, nm[count / 2]);
-    table->critical = volume_refract(0, table->index);
-    for (int k = 0; k < count; k++) {
+    for (int k = 0; table && k < count; k++) {
         table->nm[k] = nm[k];
         table->column[k] = volume_column_make(ocean, 0, nm[k]);
+    }
+    return table;
+}
+
+static trl_result light_up(const trl_context *ctx, struct volume_table *table)
+{
+    const int tasks = table->count * VOLUME_ORDERS;
+    struct work *works = mem_alloc(ctx, (size_t)tasks, sizeof *works);
+    if (!works) {
+        return TRL_ERROR_MEMORY;
     }
 #pragma omp parallel for schedule(dynamic)
     for (int task = 0; task < tasks; task++) {
@@ -191,6 +197,33 @@ trl_result volume_table_make(const trl_context *ctx, const struct ocean_desc *oc
     }
     mem_free(ctx, works);
     return TRL_OK;
+}
+
+trl_result volume_table_make(const trl_context *ctx, const struct ocean_desc *ocean,
+                             const double *nm, int count, struct volume_table **out)
+{
+    *out = describe(ctx, ocean, nm, count);
+    const trl_result result = *out ? light_up(ctx, *out) : TRL_ERROR_MEMORY;
+    if (result != TRL_OK) {
+        volume_table_destroy(ctx, out);
+    }
+    return result;
+}
+
+trl_result volume_table_get(const trl_context *ctx, const struct ocean_desc *ocean,
+                            const double *nm, int count, struct volume_table **out)
+{
+    const bool has_cache = ctx->cache_dir[0] != '\0';
+    *out = has_cache ? describe(ctx, ocean, nm, count) : NULL;
+    if (*out && volume_cache_load(ctx, *out)) {
+        return TRL_OK;
+    }
+    volume_table_destroy(ctx, out); // a damaged file may have left its key
+    const trl_result result = volume_table_make(ctx, ocean, nm, count, out);
+    if (result == TRL_OK && has_cache) {
+        volume_cache_store(ctx, *out);
+    }
+    return result;
 }
 
 void volume_table_destroy(const trl_context *ctx, struct volume_table **table)

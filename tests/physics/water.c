@@ -8,6 +8,10 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "context.h"
 #include "frame/daylight.h"
@@ -230,6 +234,40 @@ static void the_table_says_the_same(void **state)
     }
 }
 
+static void tables_come_back_from_the_cache(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/terrella-water-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    trl_context_desc desc = trl_context_desc_default();
+    desc.cache_dir = folder;
+    trl_context *ctx = NULL;
+    assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
+    static const double nm[] = {440, 640};
+    const struct ocean_desc ocean = kind(ALGAL);
+    struct volume_table *made = NULL, *kept = NULL, *other = NULL;
+    assert_int_equal(volume_table_get(ctx, &ocean, nm, 2, &made), TRL_OK);
+    assert_int_equal(volume_table_make(ctx, &ocean, nm, 2, &other), TRL_OK);
+    assert_memory_equal(made, other, sizeof *made);
+    memset(other->star, 0, sizeof other->star);
+    assert_true(volume_cache_load(ctx, other));
+    assert_memory_equal(made, other, sizeof *made);
+    other->column[1].bed_albedo += 1e-12; // other water
+    assert_false(volume_cache_load(ctx, other));
+    assert_int_equal(volume_table_get(ctx, &ocean, nm, 2, &kept), TRL_OK);
+    assert_memory_equal(made, kept, sizeof *made);
+    volume_table_destroy(ctx, &made);
+    volume_table_destroy(ctx, &kept);
+    volume_table_destroy(ctx, &other);
+    for (int place = 0; place < 8; place++) {
+        char path[64];
+        snprintf(path, sizeof path, "%s/water-%d.bin", folder, place);
+        unlink(path);
+    }
+    assert_int_equal(rmdir(folder), 0);
+    trl_context_destroy(&ctx);
+}
+
 // Linear sRGB of the solution at twice as many wavelengths as the table has.
 static void solve_colour(const trl_context *ctx, const struct ocean_desc *ocean,
                          const struct medium *medium, double depth_m,
@@ -301,6 +339,7 @@ int main(void)
         cmocka_unit_test(depths_and_waters_agree_with_paths),
         cmocka_unit_test(eyes_under_water_agree_with_paths),
         cmocka_unit_test(the_table_says_the_same),
+        cmocka_unit_test(tables_come_back_from_the_cache),
         cmocka_unit_test(pictures_have_the_colour_of_the_solution)};
     return cmocka_run_group_tests_name("water", tests, make_context, drop_context);
 }
