@@ -28,7 +28,7 @@ trl_result scene_read_noise(const struct scene_node *node, struct scene_noise *o
                                 .height_m = 4000,
                                 .mountains_m = 20000,
                                 .amplitude_m = 2500,
-                                .smallest_m = 0.2,
+                                .smallest_m = 0.03,
                                 .level_roughness = 0.25};
     const struct scene_number numbers[] = {
         {"seed", {.min = 0, .max = 4294967295.0, .is_whole = true}, &out->seed},

@@ -161,7 +161,7 @@ static trl_result read_detail(const struct scene_node *node, struct scene_detail
         {"roughness", {.min = 0, .max = 10}, &out->roughness},
         {"albedo_variation", {.min = 0, .max = 1}, &out->albedo_variation},
         {"smallest_m", {.min = 0.01, .max = 1e6}, &out->smallest_m}};
-    *out = (struct scene_detail){.roughness = 1, .albedo_variation = 0.2, .smallest_m = 0.2};
+    *out = (struct scene_detail){.roughness = 1, .albedo_variation = 0.2, .smallest_m = 0.03};
     trl_result result = scene_node_check_keys(
         node, (const char *const[]){"roughness", "albedo_variation", "smallest_m", "rock", NULL});
     if (result == TRL_OK) {

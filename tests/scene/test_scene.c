@@ -292,7 +292,7 @@ static void detail_is_read_and_has_defaults(void **state)
     s = parse_with(*state, "\"layers\":", "\"detail\": {}, \"layers\":");
     assert_near(s->detail.roughness, 1);
     assert_near(s->detail.albedo_variation, 0.2);
-    assert_near(s->detail.smallest_m, 0.2);
+    assert_near(s->detail.smallest_m, 0.03);
     trl_scene_destroy(&s);
     s = parse_with(*state, "\"layers\":",
                    "\"detail\": {\"roughness\": 2, \"albedo_variation\": 0, "
