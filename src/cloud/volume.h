@@ -40,6 +40,6 @@ double cloud_volume_spread(const struct cloud_volume *volume, double level);
 // Parts of cloud_volume_init. Fills level 0.
 TRL_MUST_USE trl_result cloud_noise_fill(const trl_context *ctx, uint32_t seed, uint16_t *texels);
 bool cloud_cache_load(const trl_context *ctx, uint32_t seed, uint16_t *texels);
-void cloud_cache_store(const trl_context *ctx, uint32_t seed, const uint16_t *texels);
+void cloud_cache_store(const trl_context *ctx, uint32_t seed, uint16_t *texels);
 
 #endif // CLOUD_VOLUME_H

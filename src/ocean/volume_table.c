@@ -213,15 +213,15 @@ trl_result volume_table_make(const trl_context *ctx, const struct ocean_desc *oc
 trl_result volume_table_get(const trl_context *ctx, const struct ocean_desc *ocean,
                             const double *nm, int count, struct volume_table **out)
 {
-    const bool has_cache = ctx->cache_dir[0] != '\0';
-    *out = has_cache ? describe(ctx, ocean, nm, count) : NULL;
+    *out = describe(ctx, ocean, nm, count);
     if (*out && volume_cache_load(ctx, *out)) {
         return TRL_OK;
     }
-    volume_table_destroy(ctx, out); // a damaged file may have left its key
-    const trl_result result = volume_table_make(ctx, ocean, nm, count, out);
-    if (result == TRL_OK && has_cache) {
+    const trl_result result = *out ? light_up(ctx, *out) : TRL_ERROR_MEMORY;
+    if (result == TRL_OK) {
         volume_cache_store(ctx, *out);
+    } else {
+        volume_table_destroy(ctx, out);
     }
     return result;
 }

@@ -3,6 +3,7 @@
 #include "scatter/cache.h"
 
 #include "base/file.h"
+#include "base/hash.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -11,20 +12,6 @@
 #include <unistd.h>
 
 enum { FORMAT_VERSION = 6, SAMPLES = 256, PIECES = 6, FILES_KEPT = 9 };
-
-// FNV-1a over words of eight bytes; a last short word is filled with zeros. Not for enemies: it
-// finds accidents.
-static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
-{
-    const unsigned char *bytes = data;
-    for (size_t at = 0; at < size; at += 8) {
-        uint64_t word = 0;
-        memcpy(&word, bytes + at, size - at < 8 ? size - at : 8);
-        hash = (hash ^ word) * 0x100000001b3u;
-        hash ^= hash >> 29;
-    }
-    return hash;
-}
 
 static uint64_t hash_double(uint64_t hash, double value)
 {
@@ -66,7 +53,7 @@ static uint64_t hash_constituent(uint64_t hash, const struct optics *optics, int
 static uint64_t hash_inputs(const struct atmosphere *a, const struct solver_settings *settings)
 {
     const struct optics *o = a->optics;
-    uint64_t hash = hash_double(0xcbf29ce484222325u, FORMAT_VERSION);
+    uint64_t hash = hash_double(HASH_BEGIN, FORMAT_VERSION);
     hash = hash_settings(hash, settings);
     hash = hash_double(hash, o->ground_radius_m);
     hash = hash_double(hash, o->top_radius_m);
