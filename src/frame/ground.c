@@ -222,6 +222,7 @@ trl_result ground_init(struct gpu *gpu, const struct ground_desc *desc, struct g
 static void finish_buffers(struct ground *ground)
 {
     gpu_target_finish(&ground->mesh_target);
+    gpu_target_finish(&ground->kinds_target);
     gpu_target_finish(&ground->surface_target);
     gpu_target_finish(&ground->sky_view_target);
     gpu_texture_finish(&ground->position);
@@ -285,6 +286,7 @@ static trl_result make_targets(struct ground *ground)
                                          .color_count = 1,
                                          .colors[0].texture = &ground->position,
                                          .depth.texture = &ground->depth};
+    const struct gpu_target_desc kinds = {.label = "kinds", .depth.texture = &ground->depth};
     const struct gpu_target_desc surface = {.label = "surface",
                                             .color_count = 4,
                                             .colors = {{.texture = &ground->albedo},
@@ -298,6 +300,9 @@ static trl_result make_targets(struct ground *ground)
         .colors = {{.texture = &ground->lights}, {.texture = &ground->region}},
         .depth.texture = &ground->depth};
     trl_result result = gpu_target_init(ground->gpu, &mesh, &ground->mesh_target);
+    if (result == TRL_OK) {
+        result = gpu_target_init(ground->gpu, &kinds, &ground->kinds_target);
+    }
     if (result == TRL_OK) {
         result = gpu_target_init(ground->gpu, &surface, &ground->surface_target);
     }
@@ -314,9 +319,6 @@ trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height)
     trl_result result = make_buffers(ground, width, height);
     if (result == TRL_OK) {
         result = make_targets(ground);
-    }
-    if (result == TRL_OK) {
-        result = terrain_kinds_resize(&ground->kinds, &ground->depth);
     }
     if (result == TRL_OK && ground->has_waves) {
         result = facets_resize(&ground->facets, &ground->depth);
@@ -364,12 +366,12 @@ static trl_result draw_surface(struct ground *ground, const struct camera *camer
 {
     const struct terrain_compose_inputs inputs = {camera, find_position(ground), &ground->shadow,
                                                   ground->region_m};
-    trl_result result = terrain_kinds_draw(&ground->kinds, inputs.position);
+    trl_result result = terrain_kinds_draw(&ground->kinds, inputs.position, &ground->kinds_target);
     if (result == TRL_OK) {
         result = terrain_compose_draw(&ground->compose, &inputs, &ground->surface_target);
     }
     return result == TRL_OK && ground->has_waves
-               ? terrain_kinds_add_water(&ground->kinds, &ground->albedo)
+               ? terrain_kinds_add_water(&ground->kinds, &ground->albedo, &ground->kinds_target)
                : result;
 }
 

@@ -50,7 +50,7 @@ struct ground {
     bool has_waves;
     struct terrain_sky_view sky_view;
     struct gpu_texture position, depth, albedo, normal, lights, region;
-    struct gpu_target mesh_target, surface_target;
+    struct gpu_target mesh_target, kinds_target, surface_target;
     struct gpu_target sky_view_target; // lights and region
 };
 

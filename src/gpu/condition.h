@@ -10,7 +10,7 @@
 struct gpu_condition {
     struct gpu *gpu;
     uint32_t query;
-    bool is_counted; // since the begin of the frame's count
+    bool is_counted; // something, ever
 };
 
 TRL_MUST_USE trl_result gpu_condition_init(struct gpu *gpu, struct gpu_condition *out);

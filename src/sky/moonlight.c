@@ -280,10 +280,7 @@ trl_result moonlight_draw(struct moonlight *moonlight, const struct sky_pixels *
     if (result == TRL_OK) {
         result = draw_kind(moonlight, pixels, SKY_KIND_GROUND, &moonlit);
     }
-    if (result == TRL_OK && sea_water_is_seen(&moonlight->sea->water, view)) {
-        gpu_condition_begin(view->surface.has_water);
-        result = draw_kind(moonlight, pixels, SKY_KIND_SEA, &moonlit);
-        gpu_condition_end(view->surface.has_water);
-    }
-    return result;
+    return result == TRL_OK && sea_water_is_seen(&moonlight->sea->water, view)
+               ? draw_kind(moonlight, pixels, SKY_KIND_SEA, &moonlit)
+               : result;
 }

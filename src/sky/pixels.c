@@ -234,6 +234,10 @@ trl_result sky_pixels_draw(const struct sky_pixels *pixels, struct gpu_program *
                                    [SKY_KIND_GROUND] = 0.75f,
                                    [SKY_KIND_SEA] = 0.9375f};
     gpu_program_set_float(program, "u_depth", DEPTHS[kind]);
+    const struct gpu_condition *condition = kind == SKY_KIND_SEA ? view->surface.has_water : NULL;
+    gpu_condition_begin(condition);
     gpu_pass_begin(pixels->gpu, &pass);
-    return gpu_draw_fullscreen(program, "sky");
+    const trl_result result = gpu_draw_fullscreen(program, "sky");
+    gpu_condition_end(condition);
+    return result;
 }

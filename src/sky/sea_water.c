@@ -57,8 +57,12 @@ trl_result sea_water_prepare(struct sea_water *water, struct gpu *gpu, const str
     desc.width = VIEWS;
     desc.height = SEA_LEVELS;
     desc.data = texels;
-    const trl_result result = sea_volume_make(gpu, water->sea->volume, bands, &water->volume);
-    return result == TRL_OK ? gpu_texture_init(gpu, &desc, &water->texture) : result;
+    trl_result result = sea_volume_make(gpu, water->sea->volume, bands, &water->volume);
+    result = result == TRL_OK ? gpu_texture_init(gpu, &desc, &water->texture) : result;
+    if (result != TRL_OK) {
+        sea_water_drop(water);
+    }
+    return result;
 }
 
 // Ground that does not rise above the water is mirrored by none.
@@ -79,10 +83,15 @@ static void find_surface(const struct sea_water *water, float surface[4])
 trl_result sea_water_reflect(struct sea_water *water, const struct sky_pixels *pixels,
                              const struct sky_view *view)
 {
+    if (!has_reflection(view)) {
+        return TRL_OK;
+    }
     float surface[4];
     find_surface(water, surface);
-    return has_reflection(view) ? reflection_draw(&water->reflection, pixels, view, surface)
-                                : TRL_OK;
+    gpu_condition_begin(view->surface.has_water);
+    const trl_result result = reflection_draw(&water->reflection, pixels, view, surface);
+    gpu_condition_end(view->surface.has_water);
+    return result;
 }
 
 void sea_water_set(const struct sea_water *water, const struct sky_view *view,

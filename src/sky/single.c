@@ -272,11 +272,9 @@ static trl_result single_draw(void *self, const struct sky_view *view)
         result = draw_kind(sky, ground, SKY_KIND_GROUND, view);
     }
     if (result == TRL_OK && sea_water_is_seen(&sky->water, view)) {
-        gpu_condition_begin(view->surface.has_water);
         result = sea_water_reflect(&sky->water, &sky->pixels, view);
         sea_water_set(&sky->water, view, &sky->sea);
         result = result == TRL_OK ? draw_kind(sky, &sky->sea, SKY_KIND_SEA, view) : result;
-        gpu_condition_end(view->surface.has_water);
     }
     return result;
 }

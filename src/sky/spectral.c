@@ -386,11 +386,9 @@ static trl_result spectral_draw(void *self, const struct sky_view *view)
     }
     if (result == TRL_OK && sea_water_is_seen(&sky->sea.water, view)) {
         struct gpu_program *sea = &sky->sea.programs[find_sea_shades(&shades)];
-        gpu_condition_begin(view->surface.has_water);
         result = sea_water_reflect(&sky->sea.water, &sky->pixels, view);
         spectral_sea_set(&sky->sea, view, sea);
         result = result == TRL_OK ? draw_kind(sky, sea, SKY_KIND_SEA, view) : result;
-        gpu_condition_end(view->surface.has_water);
     }
     return result == TRL_OK ? moonlight_draw(&sky->moonlight, &sky->pixels, view) : result;
 }

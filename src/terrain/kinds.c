@@ -20,38 +20,33 @@ trl_result terrain_kinds_init(struct gpu *gpu, struct terrain_kinds *out)
 
 void terrain_kinds_finish(struct terrain_kinds *kinds)
 {
-    gpu_target_finish(&kinds->target);
     gpu_condition_finish(&kinds->has_water);
     gpu_program_finish(&kinds->water);
     gpu_program_finish(&kinds->ground);
     *kinds = (struct terrain_kinds){0};
 }
 
-trl_result terrain_kinds_resize(struct terrain_kinds *kinds, const struct gpu_texture *depth)
+static trl_result draw(struct terrain_kinds *kinds, struct gpu_program *program,
+                       const struct gpu_target *target)
 {
-    gpu_target_finish(&kinds->target);
-    const struct gpu_target_desc desc = {.label = "kinds", .depth.texture = depth};
-    return depth ? gpu_target_init(kinds->gpu, &desc, &kinds->target) : TRL_OK;
-}
-
-static trl_result draw(struct terrain_kinds *kinds, struct gpu_program *program)
-{
-    const struct gpu_pass pass = {.target = &kinds->target, .state = {.writes_depth = true}};
+    const struct gpu_pass pass = {.target = target, .state = {.writes_depth = true}};
     gpu_pass_begin(kinds->gpu, &pass);
     return gpu_draw_fullscreen(program, "kinds of pixels");
 }
 
-trl_result terrain_kinds_draw(struct terrain_kinds *kinds, const struct gpu_texture *position)
+trl_result terrain_kinds_draw(struct terrain_kinds *kinds, const struct gpu_texture *position,
+                              const struct gpu_target *target)
 {
     gpu_program_set_texture(&kinds->ground, "u_position", position);
-    return draw(kinds, &kinds->ground);
+    return draw(kinds, &kinds->ground, target);
 }
 
-trl_result terrain_kinds_add_water(struct terrain_kinds *kinds, const struct gpu_texture *albedo)
+trl_result terrain_kinds_add_water(struct terrain_kinds *kinds, const struct gpu_texture *albedo,
+                                   const struct gpu_target *target)
 {
     gpu_program_set_texture(&kinds->water, "u_albedo", albedo);
     gpu_condition_count(&kinds->has_water);
-    const trl_result result = draw(kinds, &kinds->water);
+    const trl_result result = draw(kinds, &kinds->water, target);
     gpu_condition_counted(&kinds->has_water);
     return result;
 }

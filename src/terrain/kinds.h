@@ -12,7 +12,6 @@
 struct terrain_kinds {
     struct gpu *gpu;
     struct gpu_program ground, water;
-    struct gpu_target target;       // the depth alone
     struct gpu_condition has_water; // of the last picture
 };
 
@@ -20,19 +19,17 @@ struct terrain_kinds {
 TRL_MUST_USE trl_result terrain_kinds_init(struct gpu *gpu, struct terrain_kinds *out);
 void terrain_kinds_finish(struct terrain_kinds *kinds);
 
-// Draws to this depth, DEPTH32F, from now on; it must outlive them. NULL: to none.
-TRL_MUST_USE trl_result terrain_kinds_resize(struct terrain_kinds *kinds,
-                                             const struct gpu_texture *depth);
-
-// Overwrites the depth: passes of lib/fullscreen.vert with GPU_DEPTH_FARTHER then draw where there
-// is ground. `position` is that of frame/ground.h.
+// Overwrites the depth of a target that has nothing else: passes of lib/fullscreen.vert with
+// GPU_DEPTH_FARTHER then draw where there is ground. `position` is that of frame/ground.h.
 TRL_MUST_USE trl_result terrain_kinds_draw(struct terrain_kinds *kinds,
-                                           const struct gpu_texture *position);
+                                           const struct gpu_texture *position,
+                                           const struct gpu_target *target);
 
 // Adds the water: passes of lib/layer.vert at TERRAIN_WATER_DEPTH with GPU_DEPTH_FARTHER then draw
 // where there is some.
 #define TERRAIN_WATER_DEPTH 0.875f
 TRL_MUST_USE trl_result terrain_kinds_add_water(struct terrain_kinds *kinds,
-                                                const struct gpu_texture *albedo);
+                                                const struct gpu_texture *albedo,
+                                                const struct gpu_target *target);
 
 #endif // TERRAIN_KINDS_H
