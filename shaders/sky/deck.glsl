@@ -78,16 +78,16 @@ Deck deck_overhead(vec3 place, float altitude)
     return deck_texel(place, altitude);
 }
 
-// Of all light from above, below the clouds and in them.
-float deck_left(Deck deck)
-{
-    return 1.0 - deck.below * deck.cover * (1.0 - deck.through);
-}
-
 // Of light from below, what the clouds above send back.
 float deck_back(Deck deck)
 {
     return deck.below * deck.cover * (1.0 - deck.through);
+}
+
+// Of all light from above, below the clouds and in them.
+float deck_left(Deck deck)
+{
+    return 1.0 - deck_back(deck);
 }
 
 // Light of the star that clouds have spread: what reaches a place from everywhere, actinic, over

@@ -47,12 +47,17 @@ void sky_march_finish(struct sky_march *march)
     *march = (struct sky_march){0};
 }
 
+// With those of the defines that are not NULL.
+enum { DEFINES = 4 };
 static trl_result make_program(struct sky_march *m, const char *fragment,
-                               const char *const defines[5], struct gpu_program *out)
+                               const char *const wanted[DEFINES], struct gpu_program *out)
 {
+    const char *defines[DEFINES];
     size_t count = 0;
-    while (defines[count]) {
-        count++;
+    for (size_t i = 0; i < DEFINES; i++) {
+        if (wanted[i]) {
+            defines[count++] = wanted[i];
+        }
     }
     const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
                                           .fragment = fragment,
@@ -74,28 +79,20 @@ static trl_result make_programs(struct sky_march *m, const struct sky_march_sour
     finish_programs(m);
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", source->peaked_count);
-    const char *const surface[5] = {is_bare ? NULL : "SURFACE"};
-    const char *const march = "sky/spectral/march.frag";
-    const char *step[5] = {peaked}, *space[5] = {peaked, "TO_SPACE"};
-    size_t count = 1;
-    if (has_eclipse) {
-        space[count + 1] = step[count] = "ECLIPSE";
-        count++;
-    }
-    if (has_clouds) {
-        space[count + 1] = step[count] = "CLOUDS";
-        count++;
-    }
-    step[count] = surface[0];
-    trl_result result = make_program(m, "sky/spectral/march_begin.frag", surface, &m->begin);
-    if (result == TRL_OK) {
-        result = make_program(m, march, step, &m->step);
-    }
-    if (result == TRL_OK) {
-        result = make_program(m, march, space, &m->space);
-    }
-    if (result == TRL_OK) {
-        result = make_program(m, "sky/spectral/march_fill.frag", (const char *[5]){NULL}, &m->fill);
+    const char *const surface = is_bare ? NULL : "SURFACE";
+    const char *const eclipse = has_eclipse ? "ECLIPSE" : NULL;
+    const char *const clouds = has_clouds ? "CLOUDS" : NULL;
+    const struct {
+        const char *fragment;
+        const char *defines[DEFINES];
+        struct gpu_program *program;
+    } made[] = {{"sky/spectral/march_begin.frag", {surface}, &m->begin},
+                {"sky/spectral/march.frag", {peaked, eclipse, clouds, surface}, &m->step},
+                {"sky/spectral/march.frag", {peaked, "TO_SPACE", eclipse, clouds}, &m->space},
+                {"sky/spectral/march_fill.frag", {NULL}, &m->fill}};
+    trl_result result = TRL_OK;
+    for (size_t i = 0; i < sizeof made / sizeof *made && result == TRL_OK; i++) {
+        result = make_program(m, made[i].fragment, made[i].defines, made[i].program);
     }
     m->is_bare = is_bare;
     m->has_eclipse = has_eclipse;

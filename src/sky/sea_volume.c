@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "sky/sea_volume.h"
 
+#include "scatter/table.h"
 #include "shared/sea.glsl"
 
 #include <math.h>
@@ -58,18 +59,6 @@ trl_result sea_volume_make(struct gpu *gpu, const struct sky_sea_volume *volume,
     return result;
 }
 
-struct cell {
-    int first;
-    double part;
-};
-
-static struct cell cell_at(double x, int count)
-{
-    const double at = fmin(fmax(x, 0), 1) * (count - 1);
-    const int first = at < count - 2 ? (int)at : count - 2;
-    return (struct cell){first, at - first};
-}
-
 static double refract(const struct sky_sea_volume *volume, double mu)
 {
     return sqrt(1 - (1 - mu * mu) * (1 - volume->critical * volume->critical));
@@ -87,28 +76,28 @@ void sea_volume_at(const struct sky_sea_volume *volume, double depth_code,
 {
     const double sun = refract(volume, rays->sun_mu), view = refract(volume, rays->view_mu);
     const double range = 1 - volume->critical;
-    const struct cell v = cell_at((view - volume->critical) / range, SKY_SEA_ANGLES);
-    const struct cell s = cell_at((sun - volume->critical) / range, SKY_SEA_ANGLES);
-    const struct cell d = cell_at(depth_code, SKY_SEA_DEPTHS);
+    const struct table_cell v = table_cell_at((view - volume->critical) / range, SKY_SEA_ANGLES);
+    const struct table_cell s = table_cell_at((sun - volume->critical) / range, SKY_SEA_ANGLES);
+    const struct table_cell d = table_cell_at(depth_code, SKY_SEA_DEPTHS);
     const double sines = sqrt((1 - sun * sun) * (1 - view * view));
     const double along = sines * rays->azimuth_cosine;
     const double factor[SKY_SEA_ORDERS] = {1, along, 2 * along * along - sines * sines};
     *out = (struct sea_volume_colour){0};
     for (int k = 0; k < 3 * 4; k++) {
         const int c = k / 4, corner_v = k & 1, corner_s = k >> 1 & 1;
-        const float(*rows)[SKY_SEA_DEPTHS][3] = volume->rgb[v.first + corner_v];
-        const double share_v = corner_v ? v.part : 1 - v.part;
+        const float(*rows)[SKY_SEA_DEPTHS][3] = volume->rgb[v.below + corner_v];
+        const double share_v = (double)(corner_v ? v.part : 1 - v.part);
+        const double share_s = (double)(corner_s ? s.part : 1 - s.part);
         double light[2] = {0, 0};
         for (int m = 0; m < SKY_SEA_ORDERS; m++) {
-            const float(*row)[3] = rows[m * SKY_SEA_ANGLES + s.first + corner_s] + d.first;
+            const float(*row)[3] = rows[m * SKY_SEA_ANGLES + s.below + corner_s] + d.below;
             light[0] += factor[m] * (double)row[0][c];
             light[1] += factor[m] * (double)row[1][c];
         }
-        out->star[c] +=
-            share_v * (corner_s ? s.part : 1 - s.part) * between(light[0], light[1], d.part);
+        out->star[c] += share_v * share_s * between(light[0], light[1], (double)d.part);
         if (!corner_s) {
-            const float(*row)[3] = rows[SKY_SEA_ROWS - 1] + d.first;
-            out->sky[c] += share_v * between((double)row[0][c], (double)row[1][c], d.part);
+            const float(*row)[3] = rows[SKY_SEA_ROWS - 1] + d.below;
+            out->sky[c] += share_v * between((double)row[0][c], (double)row[1][c], (double)d.part);
         }
     }
 }
