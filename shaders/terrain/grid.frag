@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// One texel a vertex of the hemisphere mesh: xyz = position less the anchor's at its base altitude,
-// planet axes, m; w = altitude, m. Drawn once for each projection camera.
+// One texel a vertex of the hemisphere mesh: xyz = position less the anchor's at u_datum, planet
+// axes, m; w = altitude, m. Drawn once for each projection camera.
 // validate: ELEVATION_COUNT 0; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0
 // validate: ELEVATION_COUNT 4; COLOUR_COUNT 4; WATER_COUNT 4; LIGHTS_COUNT 4
 // validate: ELEVATION_COUNT 3; COLOUR_COUNT 0; WATER_COUNT 0; LIGHTS_COUNT 0; HAS_POLAR; HAS_MODES
@@ -12,7 +12,7 @@
 #include "shared/hemisphere.glsl"
 #include "terrain/layers.glsl"
 
-uniform vec4 u_grid;  // cells to a side, lift (z_s), base altitude (m)
+uniform vec2 u_grid;  // cells to a side, lift (z_s)
 uniform vec2 u_rings; // inner part and power of the warp
 uniform mat3 u_planet_from_local;
 
@@ -39,6 +39,6 @@ void main()
     float cell = length(grid_direction(next) - grid_direction(quad)) * u_anchor.w;
     float h = terrain_altitude(geo_from_local(o, 1.0), log2(cell) - 1.0);
     // Near the anchor both terms are small, and keep their digits.
-    vec3 offset = o * (u_anchor.w + (h + u_datum)) + vec3(0.0, 0.0, h + (u_datum - u_grid.z));
+    vec3 offset = o * (u_anchor.w + (h + u_datum)) + vec3(0.0, 0.0, h);
     o_position = vec4(u_planet_from_local * offset, h + u_datum);
 }

@@ -227,7 +227,7 @@ static void place_chunk(struct hemisphere *h, uint32_t index)
 
 static trl_result draw_grid(struct hemisphere *h)
 {
-    const float grid[4] = {(float)h->cells, (float)h->projection.lift, (float)h->base_m, 0};
+    const float grid[2] = {(float)h->cells, (float)h->projection.lift};
     const float rings[2] = {(float)h->rings.inner, (float)h->rings.power};
     float planet_from_local[9];
     struct anchor anchor = h->projection.anchor;
@@ -235,7 +235,7 @@ static trl_result draw_grid(struct hemisphere *h)
     anchor_planet_from_local(&anchor, planet_from_local);
     const struct surface_eye eye = projection_eye(&h->projection, h->surface, 0);
     struct gpu_program *program = height_programs_bind(&h->grid_programs, &eye, &anchor);
-    gpu_program_set_vec4(program, "u_grid", grid);
+    gpu_program_set_vec2(program, "u_grid", grid);
     gpu_program_set_vec2(program, "u_rings", rings);
     gpu_program_set_mat3(program, "u_planet_from_local", planet_from_local);
     const struct gpu_pass pass = {.target = &h->target};
