@@ -22,8 +22,9 @@ static size_t keep_heights(struct surface_layer_desc *layers, size_t count)
 static trl_result init(const trl_context *ctx, const struct trl_scene *scene, bool has_pictures,
                        struct relief *out)
 {
-    *out = (struct relief){.lights_cd_m2 = ground_find_lights_cd_m2(scene)};
-    trl_result result = frame_sea_init(ctx, scene, &out->sea);
+    *out = (struct relief){.lights_cd_m2 = ground_find_lights_cd_m2(scene),
+                           .sea = frame_sea_surface(ctx, &scene->ocean)};
+    trl_result result = has_pictures ? frame_sea_init(ctx, scene, &out->sea) : TRL_OK;
     struct surface_layer_desc layers[SCENE_MAX_LAYERS];
     struct surface_desc desc;
     ground_describe(ctx, scene, layers, &desc);

@@ -79,16 +79,21 @@ trl_result frame_sea_make_volume(const trl_context *ctx, const struct ocean_desc
     return result;
 }
 
-trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
-                          struct frame_sea *out)
+struct frame_sea frame_sea_surface(const trl_context *ctx, const struct ocean_desc *ocean)
 {
-    const struct ocean_desc *ocean = &scene->ocean;
-    *out = (struct frame_sea){.ctx = ctx,
+    return (struct frame_sea){.ctx = ctx,
                               .sea = {.is_there = ocean->is_there,
                                       .mean_square_slope = sea_mean_square_slope(&ocean->waves),
                                       .index = water_refractive_index(&ocean->water, MIDDLE_NM),
                                       .white_share = sea_whitecap_share(&ocean->waves),
                                       .white_albedo = SEA_WHITECAP_ALBEDO}};
+}
+
+trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
+                          struct frame_sea *out)
+{
+    const struct ocean_desc *ocean = &scene->ocean;
+    *out = frame_sea_surface(ctx, ocean);
     const trl_result result =
         ocean->is_there ? frame_sea_make_volume(ctx, ocean, &scene->medium, &out->volume) : TRL_OK;
     out->sea.volume = out->volume;

@@ -13,6 +13,9 @@ struct frame_sea {
     struct sky_sea_volume *volume;
 };
 
+// Without what is below: no volume.
+struct frame_sea frame_sea_surface(const trl_context *ctx, const struct ocean_desc *ocean);
+
 // Solves the light in the water: half a second of processor time where there is an ocean, once: the
 // solution is kept on disk.
 // TRL_ERROR_MEMORY; *out is to be finished then too.
