@@ -10,50 +10,11 @@
 
 static const double turn_rad = 0.005; // of a flight, from frame to frame
 
-enum { DEFAULT_RUNS = 3, TIMINGS_MAX = 32, COVERS = 3, SIZES = 2, VIEWS = 2, MAX_BYTES = 1 << 20 };
+enum { DEFAULT_RUNS = 3, TIMINGS_MAX = 32, COVERS = 3, SIZES = 2, VIEWS = 2 };
 
 static const double covers[COVERS] = {0.2, 0.5, 0.9};
 static const struct number_size sizes[SIZES] = {{640, 360}, {1280, 720}};
 static const char *const views[VIEWS] = {"ground", "full-disc"};
-
-// The text of a file, to be freed; NULL is reported.
-static char *read_text(const char *path, size_t *length)
-{
-    FILE *file = fopen(path, "rb");
-    char *text = file ? malloc(MAX_BYTES) : NULL;
-    *length = text ? fread(text, 1, MAX_BYTES, file) : 0;
-    if (file) {
-        fclose(file);
-    }
-    if (*length == 0) {
-        report_error(EXIT_FAILED, "bench: %s cannot be read", path);
-        free(text);
-        return NULL;
-    }
-    return text;
-}
-
-trl_result bench_bare_scene(const struct bench_job *job, const char *name, const char *keys,
-                            trl_scene **out)
-{
-    *out = NULL;
-    char *path = app_find_scene("bare-sphere.json");
-    size_t length = 0;
-    char *text = path ? read_text(path, &length) : NULL;
-    char *all = text ? malloc(length + strlen(keys) + 2) : NULL;
-    trl_result result = all ? TRL_OK : TRL_ERROR_IO;
-    if (all) {
-        const int head = sprintf(all, "{%s,", keys);
-        const char *rest = memchr(text, '{', length);
-        const size_t left = rest ? length - (size_t)(rest + 1 - text) : 0;
-        memcpy(all + head, rest ? rest + 1 : "", left);
-        result = trl_scene_parse(job->app->ctx, all, (size_t)head + left, name, ".", out);
-    }
-    free(all);
-    free(text);
-    free(path);
-    return result;
-}
 
 trl_result bench_cloudy_scene(const struct bench_job *job, double cover, trl_scene **out)
 {
