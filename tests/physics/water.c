@@ -16,6 +16,7 @@
 #include "context.h"
 #include "frame/daylight.h"
 #include "frame/sea.h"
+#include "ocean/sea.h"
 #include "ocean/volume.h"
 #include "reference/water.h"
 #include "shared/fresnel.glsl"
@@ -329,6 +330,45 @@ static void pictures_have_the_colour_of_the_solution(void **state)
     }
 }
 
+// As albedo below the surface under an even sky: pi times what leaves straight upward per
+// irradiance that has entered, without what the surface takes.
+static double find_albedo(const trl_context *ctx, const struct ocean_desc *ocean, double depth_m,
+                          double nm)
+{
+    const struct volume_column column = volume_column_make(ocean, depth_m, nm);
+    const double entered = 1 - sea_diffuse_reflectance(column.index);
+    return M_PI * solve(ctx, &column, (struct volume_view){0, 0.8, -1, 0}).sky /
+           ((1 - fresnel_reflectance(1, column.index)) * entered);
+}
+
+static void water_has_the_colour_of_its_depth(void **state)
+{
+    const struct ocean_desc sea = {.water = {.chlorophyll_mg_m3 = 0.1, .dissolved_per_m_440 = 0.01},
+                                   .bed.albedo = {.constant = 0.3}};
+    // Irradiance reflectance of clear blue sea below the surface: 3 to 6 % in the blue, far less
+    // than a hundredth in the red (Morel and Prieur 1977, Figure 2).
+    const double factor = 1.34 * 1.34;
+    assert_true(factor * find_albedo(*state, &sea, 1e6, 440) > 0.03);
+    assert_true(factor * find_albedo(*state, &sea, 1e6, 440) < 0.07);
+    assert_true(factor * find_albedo(*state, &sea, 1e6, 650) < 0.003);
+    // No water: the bed behind the surface, with the light that goes back and forth.
+    const double index = volume_column_make(&sea, 1e-6, 550).index;
+    const double inner = 1 - (1 - sea_diffuse_reflectance(index)) / (index * index);
+    assert_near(find_albedo(*state, &sea, 1e-6, 550), 0.3 / (1 - inner * 0.3) / (index * index),
+                1e-4);
+    double before = 1;
+    for (double depth = 0; depth < 100; depth += 5) {
+        const double green = find_albedo(*state, &sea, depth, 550);
+        assert_true(green < before);
+        before = green;
+    }
+    // Mud makes it brighter and browner.
+    struct ocean_desc river = sea;
+    river.water.mud_g_m3 = 50;
+    assert_true(find_albedo(*state, &river, 1e6, 650) > find_albedo(*state, &river, 1e6, 440));
+    assert_true(find_albedo(*state, &river, 1e6, 650) > 20 * find_albedo(*state, &sea, 1e6, 650));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -340,6 +380,7 @@ int main(void)
         cmocka_unit_test(eyes_under_water_agree_with_paths),
         cmocka_unit_test(the_table_says_the_same),
         cmocka_unit_test(tables_come_back_from_the_cache),
+        cmocka_unit_test(water_has_the_colour_of_its_depth),
         cmocka_unit_test(pictures_have_the_colour_of_the_solution)};
     return cmocka_run_group_tests_name("water", tests, make_context, drop_context);
 }

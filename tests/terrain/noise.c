@@ -268,23 +268,39 @@ static double inset_height(double latitude, double longitude)
     return 3000 + 100 * sin(latitude * 40) * cos(longitude * 50);
 }
 
-static void test_detail_of_data_agrees_on_both_sides(void **state)
+// What a description of both points to.
+struct inset {
+    char paths[2][128];
+    struct surface_layer_desc layers[2];
+};
+
+static struct surface_desc describe_inset(struct fixture *f, double height(double, double),
+                                          struct inset *out)
 {
-    struct fixture *f = *state;
     const struct raster_place globe = {-180, 90, 1, 360, 180};
     const struct raster_place small = {40, 16, 0.02, 400, 200};
-    char paths[2][128];
-    fixture_write_heights(f, "rolling", &globe, rolling_height, paths[0]);
-    fixture_write_heights(f, "inset", &small, inset_height, paths[1]);
-    const struct surface_layer_desc layers[] = {
-        {.kind = SURFACE_ELEVATION, .path = paths[0], .scale = 1},
-        {.kind = SURFACE_ELEVATION, .path = paths[1], .scale = 1, .feather_rad = DEGREE / 2}};
+    fixture_write_heights(f, "rolling", &globe, rolling_height, out->paths[0]);
+    fixture_write_heights(f, "inset", &small, height, out->paths[1]);
+    for (int i = 0; i < 2; i++) {
+        out->layers[i] = (struct surface_layer_desc){.kind = SURFACE_ELEVATION,
+                                                     .path = out->paths[i],
+                                                     .scale = 1,
+                                                     .feather_rad = i > 0 ? DEGREE / 2 : 0};
+    }
     struct surface_desc desc = surface_desc_default();
     desc.radius_m = 6e6;
-    desc.layers = layers;
+    desc.layers = out->layers;
     desc.layer_count = 2;
     desc.detail =
         (struct surface_detail){.roughness = 1, .albedo_variation = 0.2, .smallest_m = 0.2};
+    return desc;
+}
+
+static void test_detail_of_data_agrees_on_both_sides(void **state)
+{
+    struct fixture *f = *state;
+    struct inset inset;
+    const struct surface_desc desc = describe_inset(f, inset_height, &inset);
     struct surface s;
     assert_int_equal(surface_init(f->gpu, &desc, &s), TRL_OK);
     assert_true(noise_is_there(&s.noise));
@@ -318,19 +334,8 @@ static double find_left(const struct surface *with, const struct surface *withou
 static void test_detail_fades_as_the_layer_does(void **state)
 {
     struct fixture *f = *state;
-    const struct raster_place globe = {-180, 90, 1, 360, 180};
-    const struct raster_place small = {40, 16, 0.02, 400, 200};
-    char paths[2][128];
-    fixture_write_heights(f, "rolling", &globe, rolling_height, paths[0]);
-    fixture_write_heights(f, "same", &small, rolling_height, paths[1]);
-    const struct surface_layer_desc layers[] = {
-        {.kind = SURFACE_ELEVATION, .path = paths[0], .scale = 1},
-        {.kind = SURFACE_ELEVATION, .path = paths[1], .scale = 1, .feather_rad = DEGREE / 2}};
-    struct surface_desc desc = surface_desc_default();
-    desc.radius_m = 6e6;
-    desc.layers = layers;
-    desc.detail =
-        (struct surface_detail){.roughness = 1, .albedo_variation = 0.2, .smallest_m = 0.2};
+    struct inset inset;
+    struct surface_desc desc = describe_inset(f, rolling_height, &inset);
     struct surface with, without;
     desc.layer_count = 1;
     assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &without), TRL_OK);
