@@ -12,6 +12,18 @@
 #define BLEND_MAX 3.0
 #define BLEND_MIN 4.0
 
+// Whether a layer holds what changes those below, and no heights of its own; whether that is a
+// factor.
+SHARED_FN bool blend_is_change(Number mode)
+{
+    return mode > 0.5 && mode < 2.5;
+}
+
+SHARED_FN bool blend_is_factor(Number mode)
+{
+    return mode > 1.5 && mode < 2.5;
+}
+
 SHARED_FN Number blend_whole(Number mode, Number below, Number value)
 {
     Number extreme = mode < 3.5 ? shared_max(below, value) : shared_min(below, value);
@@ -38,8 +50,7 @@ SHARED_FN Number blend_slope(Number mode, Number below, Number value, Number bel
 // What changes nothing, for gaps of a layer; those of the modes that take `below` itself get it.
 SHARED_FN Number blend_neutral(Number mode, Number below)
 {
-    bool is_number = mode > 0.5 && mode < 2.5;
-    return is_number ? (mode < 1.5 ? 0.0 : 1.0) : below;
+    return blend_is_change(mode) ? (blend_is_factor(mode) ? 1.0 : 0.0) : below;
 }
 
 #endif // SHARED_BLEND_GLSL

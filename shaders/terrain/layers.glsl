@@ -324,10 +324,22 @@ float layer_linear(sampler2D heights, LayerFrame frame, vec2 uv, float lod)
 }
 #endif
 
+// Heights count from u_datum; what is added and factors are as they are, and what is multiplied
+// counts from the sphere.
+float layer_origin(float mode)
+{
+#ifdef HAS_MODES
+    return blend_is_change(mode) ? 0.0 : u_datum;
+#else
+    return u_datum;
+#endif
+}
+
 float layer_blend(float mode, float below, float value, float weight)
 {
 #ifdef HAS_MODES
-    float mixed = blend_layers(mode, below + u_datum, value + u_datum, weight) - u_datum;
+    float origin = blend_is_factor(mode) ? u_datum : 0.0;
+    float mixed = blend_layers(mode, below + origin, value, weight) - origin;
     bool is_whole = weight >= 1.0 && mode < 0.5;
 #else
     float mixed = mix(below, value, weight);
@@ -356,7 +368,7 @@ float layer_over_linear(float altitude, sampler2D heights, LayerFrame frame, flo
     vec3 at = layer_locate(frame, g);
     float lod = log2_footprint - frame.texel.z;
     float value = frame.texel.w + frame.texel.x * layer_linear(heights, frame, at.xy, lod);
-    return layer_blend(mode, altitude, value - u_datum, at.z);
+    return layer_blend(mode, altitude, value - layer_origin(mode), at.z);
 }
 
 #define ELEVATION_FRAME(i) LAYER_FRAME(u_elevation, i)

@@ -23,8 +23,12 @@ vec3 layer_over_mask(vec3 below, sampler2D mask, LayerFrame frame, float mode, G
 {
     vec3 at = layer_locate(frame, g);
     vec2 texel = layer_fetch(mask, frame, at.xy, log2_footprint - frame.texel.z).xy;
-    return vec3(layer_blend(mode, below.x, texel.x, at.z),
-                mix(below.yz, vec2(texel.y, frame.texel.z), at.z));
+#ifdef HAS_MODES
+    // What two masks make together is as deep as the deeper says.
+    texel.y = mode > 0.5 ? max(texel.y, below.y) : texel.y;
+    texel.x = min(blend_whole(mode, below.x, texel.x), 1.0);
+#endif
+    return mix(below, vec3(texel, frame.texel.z), at.z);
 }
 
 vec3 terrain_water(Ground g, float log2_footprint)

@@ -91,7 +91,8 @@ struct binding {
     const struct anchor *anchor;
 };
 
-// u_elevation_near of one layer. Heights count from what is about the ground below the anchor.
+// u_elevation_near of one layer. Heights count from what is about the ground below the anchor; what
+// only changes those has numbers of another size.
 static void describe_near(const struct terrain_layer *layer, const struct anchor *anchor,
                           double ground_m, float rows[2][4])
 {
@@ -106,10 +107,12 @@ static void describe_near(const struct terrain_layer *layer, const struct anchor
     }
     const double steps = layer->texture_steps;
     const double step_m = steps > 0 ? layer->texture_scale_m / steps : layer->texture_scale_m;
-    const double base = floor((ground_m - layer->texture_offset_m) / step_m + 0.5);
+    const bool is_change = blend_is_change(layer->mode);
+    const double near_m = is_change ? 0 : ground_m, datum_m = is_change ? 0 : anchor->datum_m;
+    const double base = floor((near_m - layer->texture_offset_m) / step_m + 0.5);
     rows[1][0] = (float)steps;
     rows[1][1] = (float)base;
-    rows[1][2] = (float)(layer->texture_offset_m + (double)rows[1][1] * step_m - anchor->datum_m);
+    rows[1][2] = (float)(layer->texture_offset_m + (double)rows[1][1] * step_m - datum_m);
     rows[1][3] = (float)step_m;
 }
 

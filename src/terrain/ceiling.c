@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+static const double WIDEST = 0.2;
+
 static double bound_noise(const void *user, struct vec3 up, double angle_rad);
 
 trl_result terrain_ceiling_init(const struct surface *surface, struct terrain_ceiling *out)
@@ -37,6 +39,16 @@ void terrain_ceiling_finish(struct terrain_ceiling *ceiling)
     *ceiling = (struct terrain_ceiling){.surface = NULL};
 }
 
+// By the table of the surface, which holds what layers below others are, too. More cells than those
+// of a wide neighbourhood are not worth looking at.
+static struct surface_bounds bound_by_table(const struct surface *s, struct vec3 up,
+                                            double angle_rad)
+{
+    return angle_rad > WIDEST ? (struct surface_bounds){(float)surface_min_altitude(s),
+                                                        (float)surface_max_altitude(s)}
+                              : surface_bounds_around(s, up, angle_rad);
+}
+
 // Of the layers, over ground that is nowhere higher than `below`.
 static double bound_data(const struct terrain_ceiling *ceiling, double below, struct vec3 up,
                          double angle_rad)
@@ -47,6 +59,10 @@ static double bound_data(const struct terrain_ceiling *ceiling, double below, st
         const double high = ceiling_pyramid_most(pyramid, CEILING_HIGHEST, up, angle_rad);
         if (isfinite(high)) {
             highest = fmax(highest, blend_whole(pyramid->layer->mode, highest, high));
+        }
+        // A factor below 0 makes the lowest ground the highest: nothing here knows how low it is.
+        if (isfinite(high) && pyramid->lowest < 0) {
+            highest = fmax(highest, (double)bound_by_table(ceiling->surface, up, angle_rad).max);
         }
     }
     return highest;
@@ -65,6 +81,16 @@ static double least_weight(const struct layer_frame *f, struct vec3 up, double a
     return least;
 }
 
+// The steepest slope where a factor is, whole or in part, of ground that is no steeper than
+// `below`: its own counts by the height that it multiplies.
+static double steepest_product(const struct ceiling_pyramid *factor, double below, double slope,
+                               const struct surface_bounds *heights)
+{
+    const double most = fmax(fabs(factor->lowest), fabs(factor->all[CEILING_HIGHEST]));
+    return below * fmax(most, 1) +
+           slope * fmax(fabs((double)heights->min), fabs((double)heights->max));
+}
+
 // What layer i changes of what is known of the ground below it. What covers all hides that.
 static void look_at_layer(const struct terrain_ceiling *ceiling, size_t i, struct vec3 up,
                           struct noise_around *around)
@@ -81,7 +107,13 @@ static void look_at_layer(const struct terrain_ceiling *ceiling, size_t i, struc
     const bool covers = least_weight(f, up, angle_rad) >= 1;
     const bool is_over = layer->mode == BLEND_OVER;
     const double own = log2(layer_finest_frame(layer)->texel_height * radius_m);
-    around->steepest = covers && is_over ? slope : around->steepest + slope;
+    if (blend_is_factor(layer->mode)) {
+        const struct surface_bounds heights = bound_by_table(ceiling->surface, up, angle_rad);
+        around->steepest =
+            steepest_product(&ceiling->pyramids[i], around->steepest, slope, &heights);
+    } else {
+        around->steepest = covers && is_over ? slope : around->steepest + slope;
+    }
     if (!covers) {
         const double feather = fmax(f->feather, f->texel_height) * radius_m;
         around->steepest += 1.5 * around->range_m / feather;
@@ -97,11 +129,10 @@ static double bound_noise(const void *user, struct vec3 up, double angle_rad)
 {
     const struct terrain_ceiling *ceiling = user;
     const struct surface *s = ceiling->surface;
-    const double widest = 0.2; // more cells than that are not worth looking at
-    if (angle_rad > widest) {
-        return surface_max_altitude(s);
+    const struct surface_bounds cells = bound_by_table(s, up, angle_rad);
+    if (angle_rad > WIDEST) {
+        return (double)cells.max;
     }
-    const struct surface_bounds cells = surface_bounds_around(s, up, angle_rad);
     const double table = (double)cells.max, range = table - (double)cells.min;
     struct noise_around around = {.reach_m = angle_rad * s->radius_m,
                                   .range_m = range,
@@ -164,7 +195,7 @@ bool terrain_ceiling_is_below(const struct terrain_ceiling *ceiling, struct vec3
     if (!noise_is_there(&s->noise)) {
         return bound_data(ceiling, 0, up, angle_rad) < altitude_m;
     }
-    const bool is_small = angle_rad < 0.2; // larger ones have many cells
+    const bool is_small = angle_rad < WIDEST; // larger ones have many cells
     if (is_small && (double)surface_bounds_around(s, up, angle_rad).max < altitude_m) {
         return true;
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "terrain/ceiling_pyramid.h"
 
+#include "shared/blend.glsl"
 #include "shared/cubic.glsl"
 #include "shared/shared.glsl"
 
@@ -159,6 +160,20 @@ static void fill_levels(struct ceiling_pyramid *pyramid, enum ceiling_value valu
     pyramid->all[value] = (double)levels[pyramid->level_count - 1][0];
 }
 
+// As find_highest, of all texels.
+static double find_lowest(const struct terrain_layer *layer)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t y = 0; y < layer->frame.height; y++) {
+        for (int64_t x = 0; x < layer->frame.width; x++) {
+            const double value = layer_texel(layer, x, y);
+            low = value < low ? value : low;
+            high = value > high ? value : high;
+        }
+    }
+    return low - (CUBIC_OVERSHOOT + (layer->tiles ? 1 : 0)) * (high - low);
+}
+
 trl_result ceiling_pyramid_init(const struct terrain_layer *layer, double radius_m, bool has_slopes,
                                 struct ceiling_pyramid *out)
 {
@@ -176,6 +191,7 @@ trl_result ceiling_pyramid_init(const struct terrain_layer *layer, double radius
     for (int i = 0; i < kinds; i++) {
         fill_levels(out, (enum ceiling_value)i);
     }
+    out->lowest = blend_is_factor(layer->mode) ? find_lowest(layer) : 0;
     return TRL_OK;
 }
 

@@ -22,6 +22,7 @@ struct ceiling_pyramid {
     // Owned: one block for each, at the first level.
     float *values[CEILING_VALUE_COUNT][CEILING_MAX_LEVELS];
     double all[CEILING_VALUE_COUNT]; // over the whole layer
+    double lowest;                   // of the whole layer, if it is a factor
 };
 
 // TRL_ERROR_MEMORY.

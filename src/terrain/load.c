@@ -57,7 +57,7 @@ double load_whole_bytes(const struct loader *loader, const struct surface_layer_
 static double find_unit(const struct loader *loader, const struct raster *raster, double mode)
 {
     const struct raster_values *v = &raster->values;
-    if (mode == BLEND_MULTIPLY) {
+    if (blend_is_factor(mode)) {
         return 1;
     }
     if (v->unit_m == 0) {
@@ -83,7 +83,7 @@ trl_result load_set_scale(const struct loader *loader, const struct surface_laye
                         desc->path, desc->scale, desc->offset_m, v->scale, v->offset);
     }
     // Exaggerating every layer exaggerates their sum; factors are no heights.
-    const double exaggeration = layer->mode == BLEND_MULTIPLY ? 1 : loader->desc->exaggeration;
+    const double exaggeration = blend_is_factor(layer->mode) ? 1 : loader->desc->exaggeration;
     layer->heights.scale = scale * exaggeration;
     layer->heights.offset_m = offset_m * exaggeration;
     return TRL_OK;

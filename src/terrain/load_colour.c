@@ -24,20 +24,6 @@ struct painter {
     uint8_t *states, *next; // owned; of each texel
 };
 
-// What the last mask that covers a place says.
-static uint8_t find_water(const struct surface *s, struct layer_geo at)
-{
-    uint8_t water = 0;
-    for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
-        const struct layer_frame *mask = &s->layers[SURFACE_WATER][i].frame;
-        const struct layer_place p = layer_locate(mask, at.latitude, at.longitude);
-        if (p.weight > 0 && s->masks[i]) {
-            water = s->masks[i][layer_texel_index(mask, lrint(p.x), lrint(p.y))];
-        }
-    }
-    return water;
-}
-
 // The only mask, where its rows are those of the picture.
 static const struct layer_frame *find_level_mask(const struct painter *p)
 {
@@ -64,7 +50,8 @@ static void find_dry_row(const struct painter *p, const struct layer_frame *mask
             const int64_t column = (int64_t)(first.x + x * step + 0.5);
             water = masked[column < mask->width ? column : column - mask->width];
         } else {
-            water = find_water(p->surface, layer_geo_of(f, x, y));
+            const struct layer_geo at = layer_geo_of(f, x, y);
+            water = surface_mask(p->surface, at.latitude, at.longitude);
         }
         row[x] = water > DRY ? STATE_SEA : 0;
     }

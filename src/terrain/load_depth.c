@@ -191,7 +191,7 @@ static bool is_known(const struct surface *surface, const struct layer_frame *ma
 
 void load_note_depths(struct surface *surface, const struct terrain_layer *layer)
 {
-    if (layer->mode == BLEND_ADD || layer->mode == BLEND_MULTIPLY) {
+    if (blend_is_change(layer->mode)) {
         return;
     }
     for (size_t i = 0; i < surface->counts[SURFACE_WATER]; i++) {

@@ -17,7 +17,7 @@ enum mask_answer { MASK_LAND = 1, MASK_WATER = 2, MASK_BOTH = 3 };
 
 // The mask that alone decides, because it lies over all others and covers the globe, in blocks.
 struct mask_blocks {
-    const struct layer_frame *frame; // NULL: there is none
+    const struct terrain_layer *mask; // NULL: there is none
     const uint8_t *texels;
     uint32_t columns, rows;
     uint8_t *answers; // owned
@@ -25,7 +25,7 @@ struct mask_blocks {
 
 static void sum_up_block(struct mask_blocks *blocks, uint32_t column, uint32_t row)
 {
-    const struct layer_frame *f = blocks->frame;
+    const struct layer_frame *f = &blocks->mask->frame;
     int answer = 0;
     for (uint32_t y = row * BLOCK; y < f->height && y < (row + 1) * BLOCK; y++) {
         for (uint32_t x = column * BLOCK; x < f->width && x < (column + 1) * BLOCK; x++) {
@@ -39,11 +39,12 @@ static void sum_up_block(struct mask_blocks *blocks, uint32_t column, uint32_t r
 static trl_result sum_up_mask(const struct surface *s, const struct terrain_layer *layer,
                               struct mask_blocks *out)
 {
-    *out = (struct mask_blocks){.frame = NULL};
+    *out = (struct mask_blocks){.mask = NULL};
     const size_t last = s->counts[SURFACE_WATER] - 1;
-    const struct layer_frame *f = &s->layers[SURFACE_WATER][last].frame;
-    const bool is_globe =
-        f->pole == 0 && f->is_whole_circle && f->touches_north && f->touches_south;
+    const struct terrain_layer *mask = &s->layers[SURFACE_WATER][last];
+    const struct layer_frame *f = &mask->frame;
+    const bool is_globe = mask->mode == BLEND_OVER && f->pole == 0 && f->is_whole_circle &&
+                          f->touches_north && f->touches_south;
     if (layer->frame.pole == 0 || !is_globe) {
         return TRL_OK;
     }
@@ -53,7 +54,7 @@ static trl_result sum_up_mask(const struct surface *s, const struct terrain_laye
     if (!out->answers) {
         return TRL_ERROR_MEMORY;
     }
-    out->frame = f;
+    out->mask = mask;
     out->texels = s->masks[last];
 #pragma omp parallel for schedule(dynamic, 4)
     for (uint32_t row = 0; row < out->rows; row++) {
@@ -67,7 +68,7 @@ static trl_result sum_up_mask(const struct surface *s, const struct terrain_laye
 // What the mask says within an angle of a direction.
 static int ask_around(const struct mask_blocks *blocks, struct vec3 direction, double angle_rad)
 {
-    const struct layer_frame *f = blocks->frame;
+    const struct layer_frame *f = &blocks->mask->frame;
     const double latitude = atan2(direction.z, hypot(direction.x, direction.y));
     const double ratio = sin(angle_rad) / fmax(cos(latitude), 1e-9);
     if (angle_rad > 0.5 || ratio > 0.5) {
@@ -98,20 +99,21 @@ struct load_row {
 };
 
 // Of a mask that does not lie along the layer's rows, where the layer is below the sea.
-static void read_mask_places(const struct layer_frame *m, const uint8_t *mask,
+static void read_mask_places(const struct terrain_layer *m, const uint8_t *texels,
                              const struct terrain_layer *layer, struct load_row row)
 {
     for (uint32_t x = row.from; x < row.to; x++) {
         if (layer_texel(layer, x, row.y) < 0) {
             const struct layer_geo at = layer_geo_of(&layer->frame, x, row.y);
-            const struct layer_place p = layer_locate(m, at.latitude, at.longitude);
+            const struct layer_place p = layer_locate(&m->frame, at.latitude, at.longitude);
+            const size_t texel = layer_texel_index(&m->frame, lrint(p.x), lrint(p.y));
             row.mask[x] =
-                p.weight > 0 ? mask[layer_texel_index(m, lrint(p.x), lrint(p.y))] : row.mask[x];
+                p.weight > 0 ? surface_blend_mask(m, row.mask[x], texels[texel]) : row.mask[x];
         }
     }
 }
 
-// What the last mask that covers a place says, along a row of a layer; 0 where none does.
+// What the masks make of each other along a row of a layer; 0 where none is.
 static void read_mask_row(const struct loader *loader, const struct terrain_layer *layer,
                           uint32_t y, uint8_t *row)
 {
@@ -119,24 +121,26 @@ static void read_mask_row(const struct loader *loader, const struct terrain_laye
     const struct layer_frame *f = &layer->frame;
     memset(row, 0, f->width);
     for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
-        const struct layer_frame *m = &s->layers[SURFACE_WATER][i].frame;
+        const struct terrain_layer *mask = &s->layers[SURFACE_WATER][i];
+        const struct layer_frame *m = &mask->frame;
         const struct layer_geo west = layer_geo_of(f, 0, y);
         const struct layer_place first = layer_locate(m, west.latitude, west.longitude);
         const uint8_t *texels =
             loader->surface->masks[i] + layer_texel_index(m, 0, (int64_t)floor(first.y + 0.5));
         // Both equirectangular: a row of places is a row of the mask.
         const bool is_row = f->pole == 0 && m->pole == 0 && m->is_whole_circle && first.weight > 0;
-        if (is_row && m->width == f->width && fabs(first.x) < 0.5) {
+        if (is_row && m->width == f->width && fabs(first.x) < 0.5 && mask->mode == BLEND_OVER) {
             memcpy(row, texels, m->width);
             continue;
         }
         const double step = f->texel_width / m->texel_width;
         for (uint32_t x = 0; x < f->width && is_row; x++) {
             const uint32_t column = (uint32_t)(first.x + 0.5 + x * step);
-            row[x] = texels[column < m->width ? column : column - m->width];
+            const uint8_t value = texels[column < m->width ? column : column - m->width];
+            row[x] = surface_blend_mask(mask, row[x], value);
         }
         if (!is_row) {
-            read_mask_places(m, s->masks[i], layer, (struct load_row){y, 0, f->width, row});
+            read_mask_places(mask, s->masks[i], layer, (struct load_row){y, 0, f->width, row});
         }
     }
 }
@@ -168,7 +172,7 @@ static void read_mask_blocks(const struct mask_blocks *blocks, const struct terr
         const int answer = answers[x / BLOCK];
         memset(row + x, answer == MASK_WATER ? 255 : 0, end - x);
         if (answer == MASK_BOTH) {
-            read_mask_places(blocks->frame, blocks->texels, layer,
+            read_mask_places(blocks->mask, blocks->texels, layer,
                              (struct load_row){y, x, end, row});
         }
     }
@@ -192,11 +196,11 @@ static void raise_rows(const struct loader *loader, const struct mask_blocks *bl
 {
     const struct layer_frame *f = &layer->frame;
     uint8_t *answers = mask + f->width;
-    if (blocks->frame) {
+    if (blocks->mask) {
         ask_for_row(blocks, f, first, answers);
     }
     for (uint32_t y = first; y < f->height && y < first + BLOCK; y++) {
-        if (blocks->frame) {
+        if (blocks->mask) {
             read_mask_blocks(blocks, layer, y, mask, answers);
         } else {
             read_mask_row(loader, layer, y, mask);
@@ -234,8 +238,7 @@ static trl_result raise_layer(const struct loader *loader, const struct mask_blo
 trl_result load_raise_sea(const struct loader *loader, struct terrain_layer *layer)
 {
     // Layers that add or multiply hold differences and factors, not heights.
-    if (loader->surface->counts[SURFACE_WATER] == 0 || layer->mode == BLEND_ADD ||
-        layer->mode == BLEND_MULTIPLY) {
+    if (loader->surface->counts[SURFACE_WATER] == 0 || blend_is_change(layer->mode)) {
         return TRL_OK;
     }
     struct mask_blocks blocks;

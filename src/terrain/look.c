@@ -81,7 +81,10 @@ static struct mask_look find_mask(const struct surface *surface, struct place at
             water += weight * surface->masks[i][index] / 255;
             code += surface->depths[i] ? weight * surface->depths[i][index] / 255 : 0;
         }
-        look.water += p.weight * (water - look.water);
+        // What two masks make together is as deep as the deeper says.
+        const double mode = surface->layers[SURFACE_WATER][i].mode;
+        code = mode == BLEND_OVER ? code : fmax(code, look.code);
+        look.water = fmin(blend_layers(mode, look.water, water, p.weight), 1);
         look.code += p.weight * (code - look.code);
         look.texel_rad = frame->texel_height;
     }

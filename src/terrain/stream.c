@@ -171,7 +171,7 @@ static void note_heights(struct stream *s, struct surface *surface, const struct
     struct stream_change *change = &s->changes[++s->revision % STREAM_CHANGES];
     surface_bound_rectangle(&l->frame, &r, &change->direction, &change->angle_rad);
     // Layers that add or multiply hold differences and factors: theirs stay as they were guessed.
-    if (l->layer->mode == BLEND_OVER) {
+    if (!blend_is_change(l->layer->mode)) {
         surface_grow_bounds(surface, &l->frame, &r, range->min, range->max);
     }
 }

@@ -94,33 +94,18 @@ static void level_pole(const struct tile_heights *t)
     }
 }
 
-// Whether the last mask that covers a place says that it is open water.
-static bool is_water(const struct surface *s, const struct layer_geo *g)
-{
-    uint8_t mask = 0;
-    for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
-        const struct layer_frame *m = &s->layers[SURFACE_WATER][i].frame;
-        const struct layer_place p = layer_locate(m, g->latitude, g->longitude);
-        mask = p.weight > 0 && s->masks[i]
-                   ? s->masks[i][layer_texel_index(m, lrint(p.x), lrint(p.y))]
-                   : mask;
-    }
-    return mask > 127;
-}
-
 static void raise_sea(const struct tile_heights *t)
 {
     const struct terrain_layer *layer = t->l->layer;
     const struct surface *s = t->l->surface;
     const double zero = -layer->heights.offset_m / layer->heights.scale;
-    if (s->counts[SURFACE_WATER] == 0 || layer->mode == BLEND_ADD ||
-        layer->mode == BLEND_MULTIPLY) {
+    if (s->counts[SURFACE_WATER] == 0 || blend_is_change(layer->mode)) {
         return;
     }
     for (size_t i = 0; i < PYRAMID_TEXELS; i++) {
         if (get_height(t, i) < zero) {
             const struct layer_geo g = place_of(t, i);
-            if (is_water(s, &g)) {
+            if (surface_mask(s, g.latitude, g.longitude) > 127) {
                 set_height(t, i, zero);
             }
         }

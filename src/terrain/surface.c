@@ -30,6 +30,26 @@ static double lay_over(const struct surface *s, sample_fn sample, double below, 
     return altitude;
 }
 
+uint8_t surface_blend_mask(const struct terrain_layer *mask, uint8_t below, uint8_t value)
+{
+    const double whole = blend_whole(mask->mode, below / 255.0, value / 255.0);
+    return mask->mode == BLEND_OVER ? value : (uint8_t)lrint(255 * fmin(whole, 1));
+}
+
+uint8_t surface_mask(const struct surface *s, double latitude, double longitude)
+{
+    uint8_t water = 0;
+    for (size_t i = 0; i < s->counts[SURFACE_WATER]; i++) {
+        const struct terrain_layer *mask = &s->layers[SURFACE_WATER][i];
+        const struct layer_place p = layer_locate(&mask->frame, latitude, longitude);
+        if (p.weight > 0 && s->masks[i]) {
+            const size_t texel = layer_texel_index(&mask->frame, lrint(p.x), lrint(p.y));
+            water = surface_blend_mask(mask, water, s->masks[i][texel]);
+        }
+    }
+    return water;
+}
+
 double surface_lake(const struct surface *s, double latitude, double longitude)
 {
     double water = 0;
@@ -48,7 +68,7 @@ double surface_lake(const struct surface *s, double latitude, double longitude)
                 const int lake = s->depths[i][index] == 0 ? s->masks[i][index] : 0;
                 value += (k % 2 ? x : 1 - x) * (k / 2 ? y : 1 - y) * lake / 255;
             }
-            water += p.weight * (value - water);
+            water = blend_layers(s->layers[SURFACE_WATER][i].mode, water, value, p.weight);
         }
     }
     return water;

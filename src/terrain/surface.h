@@ -155,6 +155,11 @@ double surface_altitude_of_held(const struct surface *surface, struct vec3 direc
 void surface_find_place(const struct surface *surface, struct vec3 direction,
                         struct noise_place *place);
 
+// Of the masks of water that are held, the nearest texels, laid over each other: 255 is water; and
+// one texel over what is below it.
+uint8_t surface_mask(const struct surface *surface, double latitude, double longitude);
+uint8_t surface_blend_mask(const struct terrain_layer *mask, uint8_t below, uint8_t value);
+
 // Part that is a lake, linear between the texels of masks; 0 where none tells the depth of water,
 // and with tiles.
 double surface_lake(const struct surface *surface, double latitude, double longitude);

@@ -163,16 +163,6 @@ static void every_mesher_is_within_a_pixel(void **state)
 // ground is pixels.
 static double deep(double latitude, double longitude)
 {
-    (void)latitude;
-    (void)longitude;
-    (void)latitude;
-    (void)longitude;
-    (void)latitude;
-    (void)longitude;
-    (void)latitude;
-    (void)longitude;
-    (void)latitude;
-    (void)longitude;
     return rolling(latitude, longitude) - 8000;
 }
 
