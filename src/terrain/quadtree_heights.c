@@ -55,7 +55,9 @@ static bool find_block_place(uint32_t x, uint32_t y, double ij[2])
 static struct anchor block_anchor(const struct quadtree_sample *s)
 {
     const struct tiles_geo geo = vertex_geo(s->place, QUADTREE_CELLS / 2.0, QUADTREE_CELLS / 2.0);
-    return anchor_below(vec3_from_lat_lon(geo.latitude_rad, geo.longitude_rad));
+    struct anchor anchor = anchor_below(vec3_from_lat_lon(geo.latitude_rad, geo.longitude_rad));
+    anchor.datum_m = (double)(float)s->datum_m;
+    return anchor;
 }
 
 static void put_places(const struct quadtree_sample *s, float *texels)
@@ -81,14 +83,16 @@ static void put_places(const struct quadtree_sample *s, float *texels)
 
 static void take_heights(const float *texels, struct quadtree_sample *s)
 {
+    const double datum = (double)(float)s->datum_m;
     for (uint32_t y = 0; y < QUADTREE_SIDE; y++) {
         for (uint32_t x = 0; x < QUADTREE_SIDE; x++) {
-            s->vertices[y * QUADTREE_SIDE + x] = (double)texels[(size_t)y * WIDTH + x];
+            s->vertices[y * QUADTREE_SIDE + x] = datum + (double)texels[(size_t)y * WIDTH + x];
         }
     }
     for (uint32_t y = 0; y < QUADTREE_CELLS; y++) {
         for (uint32_t x = 0; x < QUADTREE_CELLS; x++) {
-            s->middles[y * QUADTREE_CELLS + x] = (double)texels[(size_t)y * WIDTH + x + MIDDLES_X];
+            s->middles[y * QUADTREE_CELLS + x] =
+                datum + (double)texels[(size_t)y * WIDTH + x + MIDDLES_X];
         }
     }
 }

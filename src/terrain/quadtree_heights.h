@@ -21,6 +21,7 @@ struct quadtree_sample {
     const struct tiles_place *place;
     bool is_exact;          // on the CPU
     struct surface_eye eye; // else: in whose reach layers matter
+    double datum_m;         // about where the ground is: floats on the GPU count from there
     double cell_m;          // heights at vertices are means over cells of this size
     double *vertices;       // QUADTREE_VERTICES, row by row from the lower left
     double middles[QUADTREE_CELLS * QUADTREE_CELLS]; // the ground as fine as it is known

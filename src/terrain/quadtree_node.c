@@ -181,12 +181,17 @@ static void find_error(struct quadtree_node *n, const double *middles, double ra
     n->high_m = high + MARGIN_ERRORS * error + MARGIN_M;
 }
 
+static double middle_m(const struct quadtree_node *n)
+{
+    return 0.5 * (n->low_m + n->high_m);
+}
+
 static void bound_node(struct quadtree_node *n, double radius_m)
 {
     enum { STEPS = 4 };
     const double middle = QUADTREE_CELLS / 2.0;
     n->up = direction_at(&n->place, middle, middle);
-    n->origin_m = vec3_scale(n->up, radius_m + 0.5 * (n->low_m + n->high_m));
+    n->origin_m = vec3_scale(n->up, radius_m + middle_m(n));
     double chord = 0;
     double distance = 0;
     for (int32_t k = 0; k < (STEPS + 1) * (STEPS + 1); k++) {
@@ -234,10 +239,12 @@ static trl_result make_batch(struct quadtree_nodes *nodes, const uint32_t *indic
     for (size_t i = 0; i < count; i++) {
         struct quadtree_node *n = &nodes->all[indices[i]];
         const struct surface_eye eye = eye_of(&n->place);
+        const struct quadtree_node *parent = n->parent != 0 ? &nodes->all[n->parent] : NULL;
         n->finest_m = find_finest(nodes->surface, &eye);
         samples[i] = (struct quadtree_sample){.place = &n->place,
                                               .eye = eye,
                                               .is_exact = n->cell_m < EXACT_TEXELS * n->finest_m,
+                                              .datum_m = parent ? middle_m(parent) : 0,
                                               .cell_m = n->cell_m,
                                               .vertices = n->heights_m};
     }
