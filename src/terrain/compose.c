@@ -75,7 +75,13 @@ void terrain_compose_finish(struct terrain_compose *compose)
 static struct surface_selection select_layers(const struct surface *surface,
                                               const struct terrain_compose_inputs *in)
 {
-    struct surface_eye eye = projection_eye(&in->shadow->projection, surface, 0);
+    const struct projection *p = &in->shadow->projection;
+    const double distance_m = vec3_length(in->camera->position_m);
+    struct surface_eye eye = projection_eye(p, surface, 0);
+    // Of this very place: that of the projection may be some way off.
+    eye.up = vec3_scale(in->camera->position_m, 1 / distance_m);
+    eye.solid_m = fmin(p->solid_m, distance_m);
+    eye.horizon_rad = acos(eye.solid_m / distance_m);
     eye.least_rad = LEAST_PIXELS * 2 * in->camera->tan_half_fov_y / in->position->height;
     return surface_select(surface, &eye);
 }

@@ -176,10 +176,24 @@ static double apparent_size(const struct layer_frame *f, const struct surface_ey
     return 2 * f->reach_rad / fmax(distance, 1e-9);
 }
 
-static bool is_in_reach(const struct layer_frame *f, const struct surface_eye *eye)
+// How far from the eye ground as high as the highest of a layer may be seen.
+static double find_reach(const struct surface *s, const struct layer_frame *f,
+                         const struct surface_eye *eye)
 {
-    const double away = acos(fmax(-1, fmin(1, vec3_dot(f->direction, eye->up))));
-    return away <= eye->reach_rad + f->reach_rad && apparent_size(f, eye) > eye->least_rad;
+    if (eye->solid_m <= 0 || f->reach_rad >= SHARED_PI) {
+        return eye->reach_rad;
+    }
+    const struct surface_bounds b = surface_bounds_around(s, f->direction, f->reach_rad);
+    const double peak_m = fmax(s->radius_m + (double)b.max, eye->solid_m);
+    return fmin(eye->reach_rad, eye->horizon_rad + acos(eye->solid_m / peak_m));
+}
+
+static bool is_in_reach(const struct surface *s, const struct layer_frame *f,
+                        const struct surface_eye *eye)
+{
+    const double away = acos(fmax(-1, fmin(1, vec3_dot(f->direction, eye->up)))) - f->reach_rad;
+    return away <= eye->reach_rad && apparent_size(f, eye) > eye->least_rad &&
+           away <= find_reach(s, f, eye);
 }
 
 static void drop_smallest(const struct surface *s, enum surface_kind kind,
@@ -193,7 +207,7 @@ static void drop_smallest(const struct surface *s, enum surface_kind kind,
             smallest = i;
         }
     }
-    if (is_in_reach(&s->layers[kind][indices[smallest]].frame, eye)) {
+    if (is_in_reach(s, &s->layers[kind][indices[smallest]].frame, eye)) {
         selection->left_out[kind]++;
     }
     selection->counts[kind]--;
@@ -210,7 +224,7 @@ struct surface_selection surface_select(const struct surface *s, const struct su
         const size_t seen = surface_count_seen(s, kind);
         for (size_t i = 0; i < s->counts[kind]; i++) {
             // Only of heights does a program look at fewer where fewer are in reach.
-            if (kind == SURFACE_ELEVATION && !is_in_reach(&s->layers[kind][i].frame, eye)) {
+            if (kind == SURFACE_ELEVATION && !is_in_reach(s, &s->layers[kind][i].frame, eye)) {
                 continue;
             }
             selection.indices[kind][selection.counts[kind]++] = (uint8_t)i;

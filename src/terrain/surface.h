@@ -185,6 +185,9 @@ struct surface_eye {
     double reach_rad;  // what is farther from there does not matter
     double height_rad; // above the ground, over the radius
     double least_rad;  // layers that look smaller are left out
+    // How far a sphere that hides what is behind it is seen, and its radius, with no higher ground
+    // than a layer has itself; 0: all that is in reach matters.
+    double horizon_rad, solid_m;
 };
 
 // The layers of each kind that programs look at, in their order. Elevations: those in reach; of

@@ -489,6 +489,55 @@ static void world_files_place_pictures(void **state)
     expect_colour_left_out(f, path, "if they are not degrees");
 }
 
+// A degree wide about 46 degrees north; the second is seen from far behind the horizon.
+static double high_height(int x, int y)
+{
+    (void)x;
+    (void)y;
+    return 30000;
+}
+
+static void a_layer_is_in_view_by_its_own_highest_ground(void **state)
+{
+    struct fixture *f = *state;
+    struct recipe recipe = {.width = 20,
+                            .height = 20,
+                            .bands = 1,
+                            .type = GDT_Int16,
+                            .transform = {-100, 0.05, 0, 46.5, 0, -0.05},
+                            .system = "EPSG:4326"};
+    char paths[3][256];
+    snprintf(paths[0], sizeof paths[0], "%s", make_file(f, &GOOD));
+    for (int i = 0; i < 2; i++) {
+        recipe.name = i == 0 ? "flat.tif" : "high.tif";
+        recipe.value = i == 0 ? good_height : high_height;
+        recipe.transform[0] = i == 0 ? -100 : 80;
+        snprintf(paths[1 + i], sizeof paths[1 + i], "%s", make_file(f, &recipe));
+    }
+    struct surface_layer_desc layers[3];
+    for (int i = 0; i < 3; i++) {
+        layers[i] =
+            (struct surface_layer_desc){.kind = SURFACE_ELEVATION, .path = paths[i], .scale = 1};
+    }
+    struct surface_desc desc = surface_desc_default();
+    desc.radius_m = 6371000;
+    desc.layers = layers;
+    desc.layer_count = 3;
+    struct surface s;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &s), TRL_OK);
+    // 2000 km above the pole the horizon is 40.4 degrees away, 44 are to the middles; ground of
+    // 700 m is seen from 0.8 degrees behind it, of 30 km from 5.6.
+    struct surface_eye eye = {
+        .up = {0, 0, 1}, .reach_rad = 50 * RADIAN, .height_rad = 2000.0 / 6371};
+    assert_int_equal(surface_select(&s, &eye).counts[SURFACE_ELEVATION], 3);
+    eye.solid_m = desc.radius_m;
+    eye.horizon_rad = acos(6371.0 / 8371);
+    const struct surface_selection seen = surface_select(&s, &eye);
+    assert_int_equal(seen.counts[SURFACE_ELEVATION], 2);
+    assert_int_equal(seen.indices[SURFACE_ELEVATION][1], 2);
+    surface_finish(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -507,6 +556,7 @@ int main(void)
         TEST(strips_are_drawn),
         TEST(maps_of_other_bodies_are_told_and_drawn),
         TEST(world_files_place_pictures),
+        TEST(a_layer_is_in_view_by_its_own_highest_ground),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
