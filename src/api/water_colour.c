@@ -30,8 +30,10 @@ static trl_result trace(const trl_context *ctx, const trl_scene *scene, const tr
     for (int k = 0; k < WAVELENGTHS; k++) {
         trl_water_query at = *query;
         at.wavelength_nm = nm[k];
+        trl_water_desc own = *desc; // with paths of its own: noise of one is none of the others
+        own.seed = desc->seed * WAVELENGTHS + (uint64_t)k;
         trl_water_light light;
-        water_trace(&scene->ocean, desc, &at, &light);
+        water_trace(&scene->ocean, &own, &at, &light);
         for (int c = 0; c < 3; c++) {
             out->star_rgb[c] += M_PI * weights[c][k] * light.star_per_sr;
             out->sky_rgb[c] += M_PI * weights[c][k] * light.sky_per_sr;
@@ -50,13 +52,16 @@ static void look_up(const struct frame_sea *sea, const trl_water_query *query,
     const struct sea_volume_rays rays = {.sun_mu = cos(query->sun_zenith_rad),
                                          .view_mu = -cos(query->view_zenith_rad),
                                          .azimuth_cosine = cos(query->azimuth_rad)};
-    struct sea_volume_colour colour;
-    sea_volume_at(sea->volume, sea_depth_code(query->depth_m), &rays, &colour);
+    struct sea_volume_light light;
+    double star[3], sky[3];
+    sea_volume_at(sea->volume, sea_depth_code(query->depth_m), &rays, &light);
+    sea_volume_rgb(sea->volume, light.star, star);
+    sea_volume_rgb(sea->volume, light.sky, sky);
     const double leaves = 1 - fresnel_reflectance(rays.view_mu, sea->sea.index);
     const double enters = 1 - fresnel_reflectance(rays.sun_mu, sea->sea.index);
     for (int c = 0; c < 3; c++) {
-        out->star_rgb[c] = leaves * enters * colour.star[c];
-        out->sky_rgb[c] = leaves * colour.sky[c];
+        out->star_rgb[c] = leaves * enters * star[c];
+        out->sky_rgb[c] = leaves * sky[c];
     }
 }
 

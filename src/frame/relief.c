@@ -109,16 +109,18 @@ static void look(const void *user, struct vec3 direction, struct reference_look 
     out->water = relief->sea.sea.is_there ? surface_water(surface, direction, &out->depth_code) : 0;
 }
 
-static void find_volume(const void *user, double depth_code, const struct reference_rays *rays,
-                        double rgb[3])
+static lanes4 find_volume(const void *user, double depth_code, const struct reference_rays *rays,
+                          const lanes4 *nm)
 {
     const struct relief *relief = user;
     const struct sea_volume_rays same = {rays->light_mu, rays->view_mu, rays->azimuth_cosine};
-    struct sea_volume_colour colour;
-    sea_volume_at(relief->sea.volume, depth_code, &same, &colour);
-    for (int c = 0; c < 3; c++) {
-        rgb[c] = fmax(colour.star[c], 0);
+    struct sea_volume_light light;
+    sea_volume_at(relief->sea.volume, depth_code, &same, &light);
+    lanes4 value = {0};
+    for (int k = 0; k < REFERENCE_LANES; k++) {
+        value[k] = fmax(sea_volume_value(relief->sea.volume, light.star, (*nm)[k]), 0);
     }
+    return value;
 }
 
 struct reference_surface relief_surface(const struct relief *relief)

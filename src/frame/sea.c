@@ -12,6 +12,7 @@
 
 _Static_assert((int)SKY_SEA_ANGLES == (int)VOLUME_ANGLES, "angles are the table's");
 _Static_assert((int)SKY_SEA_ORDERS == (int)VOLUME_ORDERS, "orders are the table's");
+_Static_assert((int)SKY_SEA_WAVELENGTHS == (int)VOLUME_WAVELENGTHS, "wavelengths are the table's");
 
 // Where the eye sees most.
 static const double MIDDLE_NM = 555;
@@ -19,36 +20,38 @@ static const double MIDDLE_NM = 555;
 // Where the water's spectra are known.
 static const double FIRST_NM = 400, STEP_NM = 20;
 
-struct colours {
-    const struct volume_table *table;
-    double weights[3][DAYLIGHT_MAX_WEIGHTS];
-};
-
-static void store(const struct colours *colours, const double spectrum[VOLUME_WAVELENGTHS],
-                  float rgb[3])
+static void store(const struct volume_table *table, const double spectrum[VOLUME_WAVELENGTHS],
+                  float *out)
 {
-    const double index = colours->table->index;
-    for (int c = 0; c < 3; c++) {
-        double sum = 0;
-        for (int k = 0; k < VOLUME_WAVELENGTHS; k++) {
-            sum += colours->weights[c][k] * spectrum[k];
-        }
-        rgb[c] = (float)(sum * M_PI / (index * index));
+    for (int k = 0; k < VOLUME_WAVELENGTHS; k++) {
+        out[k] = (float)(spectrum[k] * M_PI / (table->index * table->index));
     }
 }
 
-static void fill_depth(const struct colours *colours, int depth, struct sky_sea_volume *out)
+static void fill_depth(const struct volume_table *table, int depth, struct sky_sea_volume *out)
 {
     // The code 0 stands for all that is deeper.
     const double depth_m = depth > 0 ? sea_code_depth((double)depth / (SKY_SEA_DEPTHS - 1)) : 1e6;
     for (int pair = 0; pair < SKY_SEA_ANGLES * SKY_SEA_ANGLES; pair++) {
         const int view = pair / SKY_SEA_ANGLES, sun = pair % SKY_SEA_ANGLES;
         struct volume_entry entry;
-        volume_table_entry(colours->table, depth_m, sun, view, &entry);
+        volume_table_entry(table, depth_m, sun, view, &entry);
         for (int m = 0; m < SKY_SEA_ORDERS; m++) {
-            store(colours, entry.star[m], out->rgb[view][m * SKY_SEA_ANGLES + sun][depth]);
+            store(table, entry.star[m], out->spectrum[view][m * SKY_SEA_ANGLES + sun][depth]);
         }
-        store(colours, entry.sky, out->rgb[view][SKY_SEA_ROWS - 1][depth]);
+        store(table, entry.sky, out->spectrum[view][SKY_SEA_ROWS - 1][depth]);
+    }
+}
+
+static void fill_colours(const struct medium *medium, const double *nm, struct sky_sea_volume *out)
+{
+    double weights[3][DAYLIGHT_MAX_WEIGHTS];
+    daylight_weights(medium, nm, SKY_SEA_WAVELENGTHS, weights);
+    for (int k = 0; k < SKY_SEA_WAVELENGTHS; k++) {
+        out->nm[k] = nm[k];
+        for (int c = 0; c < 3; c++) {
+            out->rgb_from_spectrum[c][k] = weights[c][k];
+        }
     }
 }
 
@@ -67,12 +70,11 @@ trl_result frame_sea_make_volume(const trl_context *ctx, const struct ocean_desc
         result = *out ? TRL_OK : TRL_ERROR_MEMORY;
     }
     if (result == TRL_OK) {
-        struct colours colours = {.table = table};
-        daylight_weights(medium, nm, VOLUME_WAVELENGTHS, colours.weights);
+        fill_colours(medium, nm, *out);
         (*out)->critical = table->critical;
 #pragma omp parallel for schedule(dynamic)
         for (int i = 0; i < SKY_SEA_DEPTHS; i++) {
-            fill_depth(&colours, i, *out);
+            fill_depth(table, i, *out);
         }
     }
     volume_table_destroy(ctx, &table);

@@ -326,7 +326,7 @@ static void hit_ground(const struct reference_tracer *tracer, const struct fligh
         path->facets = (struct reference_facets){.up = vec3_normalize(at),
                                                  .view = vec3_scale(path->direction, -1),
                                                  .depth_code = flight->look.depth_code,
-                                                 .colour_albedo = tracer->colour_albedo};
+                                                 .nm = &tracer->nm};
     } else {
         path->weight *= flight->albedo;
     }

@@ -40,21 +40,15 @@ static double normal_density(const struct reference_sea *sea, double mu)
 static lanes4 volume_between(const struct reference_sea *sea, const struct reference_facets *place,
                              struct vec3 light, const struct reference_rays *mus)
 {
-    lanes4 sum = {0};
     if (!sea->volume) {
-        return sum;
+        return lanes4_set(0);
     }
     struct reference_rays rays = *mus;
     const double sines =
         sqrt((1 - rays.light_mu * rays.light_mu) * (1 - rays.view_mu * rays.view_mu));
     const double level = vec3_dot(light, place->view) - rays.light_mu * rays.view_mu;
     rays.azimuth_cosine = sines > 1e-9 ? fmin(fmax(-level / sines, -1), 1) : 1;
-    double rgb[3];
-    sea->volume(sea->user, place->depth_code, &rays, rgb);
-    for (int c = 0; c < 3; c++) {
-        sum += place->colour_albedo[c] * rgb[c];
-    }
-    return sum;
+    return sea->volume(sea->user, place->depth_code, &rays, place->nm);
 }
 
 lanes4 reference_sea_value(const struct reference_sea *sea, const struct reference_facets *place,

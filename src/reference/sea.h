@@ -20,20 +20,19 @@ struct reference_sea {
     double index;             // refractive
     double white_share;       // of the surface, Lambertian with that albedo
     double white_albedo;
-    // What comes out of the water, as linear sRGB relative to white in the star's light: pi times
-    // the radiance that leaves per irradiance that has entered, without what the surface takes of
-    // it. NULL: nothing.
+    // What comes out of the water at wavelengths: pi times the radiance that leaves per irradiance
+    // that has entered, without what the surface takes of it. NULL: nothing.
     const void *user;
-    void (*volume)(const void *user, double depth_code, const struct reference_rays *rays,
-                   double rgb[3]);
+    lanes4 (*volume)(const void *user, double depth_code, const struct reference_rays *rays,
+                     const lanes4 *nm);
 };
 
 // A place of it: unit vectors to the zenith and to where the path came from; how deep it is; the
-// albedo of red, green and blue.
+// path's wavelengths.
 struct reference_facets {
     struct vec3 up, view;
     double depth_code;
-    const lanes4 *colour_albedo;
+    const lanes4 *nm;
 };
 
 // What goes from one direction to the other, times the cosine of the incident light: sr^-1.

@@ -203,8 +203,12 @@ trl_result reference_world_init(const trl_context *ctx, const struct reference_s
 struct reference_tracer reference_tracer_make(const struct reference_world *world, const double *nm,
                                               int count)
 {
-    return (struct reference_tracer){.world = world,
-                                     .optics = reference_optics_at(world->scene.medium, nm, count)};
+    struct reference_tracer tracer = {
+        .world = world, .optics = reference_optics_at(world->scene.medium, nm, count)};
+    for (int k = 0; k < REFERENCE_LANES; ++k) {
+        tracer.nm[k] = nm[k < count ? k : 0];
+    }
+    return tracer;
 }
 
 size_t reference_max_stretches(const struct reference_air *air)

@@ -53,6 +53,7 @@ void reference_world_finish(const trl_context *ctx, struct reference_world *worl
 struct reference_tracer {
     const struct reference_world *world;
     struct reference_optics optics;
+    lanes4 nm;
     lanes4 colour_albedo[3]; // albedo of a red, a green and a blue surface
     lanes4 glow;             // radiance per unit irradiance of the star of ground with light 1
     int max_order;           // 0: all

@@ -9,17 +9,21 @@
 // Depths of the table: codes of shared/sea.glsl, from the deep to the shore.
 enum { SKY_SEA_DEPTHS = 64 };
 
-// What comes out of the water: linear sRGB relative to white in the star's light, pi times the
-// radiance that leaves upward per irradiance, without the loss of the radiance at the surface
-// (1 - Fresnel of the view). Angles are cosines of refracted rays, evenly from `critical`, that of
-// grazing ones, to 1. Rows: for each order m of azimuth all stars, per irradiance that has entered
-// the water, the coefficient of cos(m azimuth) over the power m of both rays' sines; then the even
-// sky, per irradiance from above.
+// What comes out of the water: spectra of pi times the radiance that leaves upward per irradiance,
+// without the loss of the radiance at the surface (1 - Fresnel of the view), and what colour they
+// have as linear sRGB relative to white in the star's light. Between its wavelengths a spectrum
+// runs straight, beyond them it is even. Angles are cosines of refracted rays, evenly from
+// `critical`, that of grazing ones, to 1. Rows: for each order m of azimuth all stars, per
+// irradiance that has entered the water, the coefficient of cos(m azimuth) over the power m of both
+// rays' sines; then the even sky, per irradiance from above.
 enum { SKY_SEA_ANGLES = 12, SKY_SEA_ORDERS = 3 };
-enum { SKY_SEA_ROWS = SKY_SEA_ORDERS * SKY_SEA_ANGLES + 1 };
+enum { SKY_SEA_ROWS = SKY_SEA_ORDERS * SKY_SEA_ANGLES + 1, SKY_SEA_WAVELENGTHS = 16 };
 struct sky_sea_volume {
     double critical;
-    float rgb[SKY_SEA_ANGLES][SKY_SEA_ROWS][SKY_SEA_DEPTHS][3]; // [view][row][depth]
+    double nm[SKY_SEA_WAVELENGTHS];
+    double rgb_from_spectrum[3][SKY_SEA_WAVELENGTHS];
+    // [view][row][depth][wavelength]
+    float spectrum[SKY_SEA_ANGLES][SKY_SEA_ROWS][SKY_SEA_DEPTHS][SKY_SEA_WAVELENGTHS];
 };
 
 struct sky_sea {

@@ -270,9 +270,12 @@ static void tables_come_back_from_the_cache(void **state)
 }
 
 // Linear sRGB of the solution at twice as many wavelengths as the table has.
+struct colours {
+    double star[3], sky[3];
+};
 static void solve_colour(const trl_context *ctx, const struct ocean_desc *ocean,
                          const struct medium *medium, double depth_m,
-                         const struct volume_view *view, struct sea_volume_colour *out)
+                         const struct volume_view *view, struct colours *out)
 {
     enum { COUNT = 33 };
     double nm[COUNT], weights[3][DAYLIGHT_MAX_WEIGHTS];
@@ -280,7 +283,7 @@ static void solve_colour(const trl_context *ctx, const struct ocean_desc *ocean,
         nm[k] = 390 + 10 * k;
     }
     daylight_weights(medium, nm, COUNT, weights);
-    *out = (struct sea_volume_colour){0};
+    *out = (struct colours){0};
     for (int k = 0; k < COUNT; k++) {
         const struct volume_column column = volume_column_make(ocean, depth_m, nm[k]);
         const struct volume_light light = solve(ctx, &column, *view);
@@ -314,9 +317,12 @@ static void pictures_have_the_colour_of_the_solution(void **state)
         for (int i = 0; i < 4; i++) {
             const struct volume_view view = {0, i % 2 ? 0.94 : 0.5, -0.8, 1};
             const struct sea_volume_rays rays = {view.sun_mu, 0.8, cos(1)};
-            struct sea_volume_colour wanted, got;
+            struct sea_volume_light light;
+            struct colours wanted, got;
             solve_colour(*state, &ocean, &medium, depths_m[i], &view, &wanted);
-            sea_volume_at(volume, sea_depth_code(depths_m[i]), &rays, &got);
+            sea_volume_at(volume, sea_depth_code(depths_m[i]), &rays, &light);
+            sea_volume_rgb(volume, light.star, got.star);
+            sea_volume_rgb(volume, light.sky, got.sky);
             const double index = volume_column_make(&ocean, 1, 555).index;
             const double leaves = 1 - fresnel_reflectance(0.8, index);
             for (int c = 0; c < 3; c++) {
