@@ -9,7 +9,7 @@
 
 // Of the spectrum: from where nothing is, to waves that only a glance at one's feet resolves.
 static const double LONGEST_OF_PEAK = 0.55, SHORTEST_OF_PEAK = 3, SHORTEST_M = 0.2;
-// Sum of the compressions of all crests together, at most: 1 would be a cusp.
+// Compression along any course where all crests meet, at most: 1 would be a cusp.
 static const double MOST_COMPRESSION = 0.98;
 
 // Down to waves a ninth as fast as the peak crests have foam of their own; shorter ones only make
@@ -127,7 +127,7 @@ static double square_of(const struct wave_component *c)
 
 static void finish_sums(struct waves *waves, double total_square)
 {
-    double square = 0, steep = 0;
+    double square = 0;
     uint32_t kept = 0;
     for (; kept < waves->count; kept++) {
         const struct wave_component *c = &waves->components[kept];
@@ -135,12 +135,10 @@ static void finish_sums(struct waves *waves, double total_square)
             break;
         }
         square += square_of(c);
-        steep += c->amplitude_m * c->wavenumber_per_m;
     }
     waves->count = kept;
     waves->mean_square_slope = square;
     waves->rest_square = total_square - square;
-    waves->steepness = steep > 0 ? fmin(1, MOST_COMPRESSION / steep) : 0;
 }
 
 trl_result waves_init(const struct waves_desc *desc, struct waves *out)
@@ -255,7 +253,6 @@ static struct vec3 find_origin(uint32_t cell, double bearing_rad)
 struct eye {
     struct axes axes;
     double time_s;
-    double most_steep; // by which shared energy can make crests higher
 };
 
 static void put_wave(const struct waves *waves, const struct eye *eye, const struct cell *cell,
@@ -276,7 +273,7 @@ static void put_wave(const struct waves *waves, const struct eye *eye, const str
                                          c->amplitude_m * sqrt(cell->share),
                                          c->wavenumber_per_m,
                                          remainder(phase, 2 * M_PI),
-                                         waves->steepness / eye->most_steep};
+                                         0};
     const uint32_t group = out->count / WAVES_LANES, lane = out->count % WAVES_LANES;
     for (int i = 0; i < WAVES_FIELDS; i++) {
         out->texels[group][i][lane] = (float)values[i];
@@ -284,21 +281,40 @@ static void put_wave(const struct waves *waves, const struct eye *eye, const str
     out->count++;
 }
 
+// Q: with B = most I - C, C = sum Q A k d d^T the compression where all crests meet, and p = A k,
+// the next wave takes its largest eigenvalue to the most that is allowed when det(B - Q p d d^T) =
+// 0, which is Q p d^T B^-1 d = 1. Any other phases make less of it in every direction.
+static void steepen(struct waves_view *view)
+{
+    double xx = MOST_COMPRESSION, xy = 0, yy = MOST_COMPRESSION; // B
+    double steepness = 1;
+    for (uint32_t i = 0; i < view->count; i++) {
+        const GerstnerWave w = waves_view_get(view, i);
+        const double away = hypot(w.x, w.y), press = w.amplitude * w.wavenumber;
+        const double dx = away > 0 ? -w.x / away : 1, dy = away > 0 ? -w.y / away : 0;
+        const double along = yy * dx * dx - 2 * xy * dx * dy + xx * dy * dy; // d^T adj(B) d
+        const double room = press * along > 0 ? (xx * yy - xy * xy) / (press * along) : 0;
+        steepness = steepness < 1 ? 0 : fmin(fmax(room, 0), 1);
+        xx -= steepness * press * dx * dx;
+        xy -= steepness * press * dx * dy;
+        yy -= steepness * press * dy * dy;
+        view->texels[i / WAVES_LANES][6][i % WAVES_LANES] = (float)steepness;
+    }
+}
+
 void waves_view_make(const struct waves *waves, struct vec3 place, double time_s,
                      struct waves_view *out)
 {
-    struct eye eye = {find_axes(place), time_s, 0};
+    const struct eye eye = {find_axes(place), time_s};
     struct cell cells[WAVES_MAX_CELLS];
     const int count = find_cells(eye.axes.up, cells);
-    for (int i = 0; i < count; i++) {
-        eye.most_steep += sqrt(cells[i].share);
-    }
     out->count = 0;
     for (uint32_t w = 0; w < waves->count; w++) {
         for (int i = 0; i < count; i++) {
             put_wave(waves, &eye, &cells[i], w, out);
         }
     }
+    steepen(out);
     out->groups = (out->count + WAVES_LANES - 1) / WAVES_LANES;
     for (uint32_t i = out->count; i < out->groups * WAVES_LANES; i++) {
         for (int f = 0; f < WAVES_FIELDS; f++) {
@@ -312,7 +328,8 @@ void waves_view_make(const struct waves *waves, struct vec3 place, double time_s
 struct waves_stand waves_stand_find(const struct waves_view *view, double radius_m, double side_m,
                                     double part)
 {
-    enum { ROUNDS = 6 }; // by fixed-point iteration, which converges since no crest is a loop
+    // By Newton's method, which converges since no crest is a loop.
+    enum { ROUNDS = 6 };
     struct waves_stand stand = {0, 0, 0};
     for (int round = 0; round < ROUNDS; round++) {
         const GerstnerPlace p = gerstner_place(stand.east_m, stand.north_m, radius_m);
@@ -323,7 +340,11 @@ struct waves_stand waves_stand_find(const struct waves_view *view, double radius
             const double weight = part * gerstner_weight(w.wavenumber * side_m, 0);
             sum = gerstner_add(sum, w, gerstner_ripple(w, p, radius_m, angle), weight);
         }
-        stand = (struct waves_stand){-sum.x, -sum.y, sum.z};
+        const double east = stand.east_m + sum.x, north = stand.north_m + sum.y;
+        const double det = gerstner_jacobian(sum, 1);
+        stand.east_m -= ((1 - sum.yy) * east + sum.xy * north) / det;
+        stand.north_m -= ((1 - sum.xx) * north + sum.xy * east) / det;
+        stand.height_m = sum.z;
     }
     return stand;
 }

@@ -28,7 +28,6 @@ struct waves {
     uint32_t seed;
     uint32_t count;
     struct wave_component *components; // owned; the longest first
-    double steepness;                  // Q of all: no sum of crests makes a loop
     double mean_square_slope;          // of the components
     double rest_square;                // of all shorter waves, beyond them
     double breaking_per_m;             // of sea_breaking
@@ -61,7 +60,8 @@ struct waves_view {
 
 // For an eye above that place (any length but 0), which is the anchor; axes east, north and up.
 // Phases are found in double: after any number of days they are right to 1e-16 of the angle turned
-// through.
+// through. Q is 1 from the longest wave on, as far as no sum of crests makes a loop, and 0 of the
+// others.
 void waves_view_make(const struct waves *waves, struct vec3 place, double time_s,
                      struct waves_view *out);
 

@@ -1,141 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Waves of the sea against the laws that they are drawn from, and their shape on the sphere against
-// its definition.
-#include "ocean/waves.h"
-#include "ocean/spectrum.h"
-#include <terrella/context.h>
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
-
-static const double RADIUS_M = 6371000, GRAVITY = 9.81;
-
-static int set_up(void **state)
-{
-    trl_context *ctx = NULL;
-    const trl_context_desc desc = trl_context_desc_default();
-    assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
-    *state = ctx;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    trl_context *ctx = *state;
-    trl_context_destroy(&ctx);
-    return 0;
-}
-
-static struct ocean_desc describe(double wind_m_s, enum ocean_spectrum spectrum, uint32_t count)
-{
-    return (struct ocean_desc){.gravity_m_s2 = GRAVITY,
-                               .waves = {.wind_m_s = wind_m_s,
-                                         .wind_from_rad = 240 * M_PI / 180,
-                                         .fetch_m = 3e5,
-                                         .spectrum = spectrum,
-                                         .count = count,
-                                         .seed = 1}};
-}
-
-static void make(trl_context *ctx, const struct ocean_desc *ocean, struct waves *out)
-{
-    const struct waves_desc desc = {ctx, ocean, RADIUS_M, 0.003 + 0.00512 * ocean->waves.wind_m_s};
-    assert_int_equal(waves_init(&desc, out), TRL_OK);
-}
-
-static double find_height(const struct wave_spectrum *s)
-{
-    double sum = 0;
-    const double step = 1e-3;
-    for (double x = log(0.3); x < log(1000); x += step) {
-        const double omega = s->peak_per_s * exp(x + step / 2);
-        sum += wave_spectrum_at(s, omega) * omega * step;
-    }
-    return 4 * sqrt(sum);
-}
-
-// Of alpha g^2 w^-5 exp(-beta (g / U w)^4) the integral is alpha U^4 / (4 beta g^2).
-static void full_grown_sea_is_as_high_as_its_integral(void **state)
-{
-    const struct ocean_desc ocean = describe(10, OCEAN_PIERSON_MOSKOWITZ, 60);
-    const struct wave_spectrum s = wave_spectrum_make(&ocean.waves, GRAVITY);
-    const double u = 10.26;
-    const double wanted = 4 * sqrt(0.0081 / (4 * 0.74)) * u * u / GRAVITY;
-    assert_true(fabs(find_height(&s) / wanted - 1) < 1e-3);
-    struct waves waves;
-    make(*state, &ocean, &waves);
-    // Left out are waves above 0.55 of the peak's length squared and those shorter than 0.2 m.
-    assert_true(fabs(waves_significant_height_m(&waves) / wanted - 1) < 2e-3);
-    waves_finish(&waves);
-}
-
-// Hasselmann et al. 1973: variance = 1.6e-7 fetch U^2 / g, by a fit of its own, which the mean of
-// the shapes surpasses in height by 16 to 34 % at 10 m/s.
-static void young_sea_is_as_high_as_was_measured(void **state)
-{
-    for (double fetch_m = 1e4; fetch_m < 3e5; fetch_m *= 3) {
-        struct ocean_desc ocean = describe(10, OCEAN_JONSWAP, 60);
-        ocean.waves.fetch_m = fetch_m;
-        const struct wave_spectrum s = wave_spectrum_make(&ocean.waves, GRAVITY);
-        const double measured = 4 * sqrt(1.6e-7 * fetch_m * 100 / GRAVITY);
-        assert_true(fabs(find_height(&s) / measured - 1) < 0.35);
-        struct waves waves;
-        make(*state, &ocean, &waves);
-        assert_true(fabs(waves_significant_height_m(&waves) / find_height(&s) - 1) < 5e-3);
-        waves_finish(&waves);
-    }
-}
-
-static void waves_run_as_in_deep_water(void **state)
-{
-    struct ocean_desc ocean = describe(8, OCEAN_JONSWAP, 60);
-    ocean.gravity_m_s2 = 1.35; // another planet's
-    struct waves waves;
-    make(*state, &ocean, &waves);
-    assert_true(waves.count > 30);
-    for (uint32_t i = 0; i < waves.count; i++) {
-        const struct wave_component *c = &waves.components[i];
-        assert_true(fabs(c->omega_per_s * c->omega_per_s / (1.35 * c->wavenumber_per_m) - 1) <
-                    1e-12);
-        assert_true(i == 0 || c->wavenumber_per_m > waves.components[i - 1].wavenumber_per_m);
-    }
-    waves_finish(&waves);
-}
-
-// Down to where capillary waves begin (k = 370 per m) the spectrum has 1.1 of the slopes that Cox
-// and Munk saw at 5 m/s and 0.6 at 12: its tail does not know the wind. What is missing, or too
-// much, is made good: the sum is theirs.
-static void slopes_are_near_those_of_cox_and_munk(void **state)
-{
-    for (double wind = 5; wind <= 12; wind += 3.5) {
-        const struct ocean_desc ocean = describe(wind, OCEAN_JONSWAP, 60);
-        const struct wave_spectrum s = wave_spectrum_make(&ocean.waves, GRAVITY);
-        const double seen = 0.003 + 0.00512 * wind, step = 1e-3;
-        double sum = 0;
-        for (double x = log(0.3 * s.peak_per_s); x < log(sqrt(GRAVITY * 370)); x += step) {
-            const double omega = exp(x + step / 2), k = omega * omega / GRAVITY;
-            sum += wave_spectrum_at(&s, omega) * k * k * omega * step;
-        }
-        assert_true(sum > 0.55 * seen && sum < 1.2 * seen);
-        struct waves waves;
-        make(*state, &ocean, &waves);
-        double square = 0, steep = 0;
-        for (uint32_t i = 0; i < waves.count; i++) {
-            const double slope =
-                waves.components[i].amplitude_m * waves.components[i].wavenumber_per_m;
-            square += slope * slope / 2;
-            steep += slope;
-        }
-        assert_true(fabs(square + waves.rest_square - seen) < 1e-12);
-        assert_true(waves.rest_square >= 0);
-        assert_true(waves.steepness * steep < 1);
-        waves_finish(&waves);
-    }
-}
+// Waves on the sphere against their definition.
+#include "waves.h"
 
 static struct vec3 displaced(const GerstnerWave *waves, int count, struct vec3 v)
 {
@@ -263,10 +129,10 @@ static void anchor_may_be_a_pole(void **state)
 // Ten days of seconds, against phases in long double.
 static void phases_are_exact_after_ten_days(void **state)
 {
-    const struct ocean_desc ocean = describe(8, OCEAN_JONSWAP, 40);
+    const struct ocean_desc ocean = waves_describe(8, OCEAN_JONSWAP, 40);
     struct waves waves;
     struct waves_view *now = test_malloc(sizeof *now), *then = test_malloc(sizeof *then);
-    make(*state, &ocean, &waves);
+    waves_make(*state, &ocean, &waves);
     const struct vec3 eye = {RADIUS_M, 1e5, 2e5};
     const double time_s = 864000.37;
     waves_view_make(&waves, eye, 0, now);
@@ -288,10 +154,10 @@ static void phases_are_exact_after_ten_days(void **state)
 // Half a metre further, the eye sees the same sea: also where cells border.
 static void an_eye_that_moves_sees_the_same_waves(void **state)
 {
-    const struct ocean_desc ocean = describe(8, OCEAN_JONSWAP, 24);
+    const struct ocean_desc ocean = waves_describe(8, OCEAN_JONSWAP, 24);
     struct waves waves;
     struct waves_view *view = test_malloc(sizeof *view);
-    make(*state, &ocean, &waves);
+    waves_make(*state, &ocean, &waves);
     double most = 0, least_share = 1e9;
     for (int i = 0; i < 600; i++) {
         double heights[2];
@@ -331,45 +197,6 @@ static void an_eye_that_moves_sees_the_same_waves(void **state)
     waves_finish(&waves);
 }
 
-// Under any window the slopes that are shown, in the mean over 200 000 m^2, and those that are told
-// are those of the whole sea.
-static void windows_keep_the_mean_square_slope(void **state)
-{
-    const struct ocean_desc ocean = describe(8, OCEAN_JONSWAP, 60);
-    const struct vec3 eye = {RADIUS_M, 0.3 * RADIUS_M, 0.2 * RADIUS_M};
-    struct waves waves;
-    struct waves_view *view = test_malloc(sizeof *view);
-    make(*state, &ocean, &waves);
-    waves_view_make(&waves, eye, 5, view);
-    const double total = waves.mean_square_slope + waves.rest_square;
-    for (double side_m = 0; side_m < 20; side_m = 2 * side_m + 0.3) {
-        double shown = 0, told = 0;
-        enum { PLACES = 3000 };
-        for (int i = 0; i < PLACES; i++) {
-            // Evenly, by powers of the inverse of the root of x^3 = x + 1.
-            const double x = 450 * (fmod(i * 0.7548776662466927, 1) - 0.5);
-            const double y = 450 * (fmod(i * 0.5698402909980532, 1) - 0.5);
-            const GerstnerPlace p = gerstner_place(x, y, RADIUS_M);
-            GerstnerSum sum = gerstner_level();
-            for (uint32_t w = 0; w < view->count; w++) {
-                const GerstnerWave wave = waves_view_get(view, w);
-                const GerstnerTurn t = gerstner_turn(wave, p);
-                const GerstnerRipple r =
-                    gerstner_ripple(wave, p, RADIUS_M, gerstner_small_angle(t));
-                const double k = wave.wavenumber * side_m;
-                sum = gerstner_add(sum, wave, r, gerstner_weight(k * r.dx, 0.3 * k * r.dy));
-            }
-            shown += (sum.gx * sum.gx + sum.gy * sum.gy) / PLACES;
-            told += (sum.lost_square + waves.rest_square) / PLACES;
-        }
-        // A mean of 3000 squares.
-        assert_true(fabs((shown + told) / total - 1) < 0.05);
-        assert_true(side_m > 0 ? told > waves.rest_square : shown > 0.5 * waves.mean_square_slope);
-    }
-    test_free(view);
-    waves_finish(&waves);
-}
-
 static void shallow_water_leaves_what_does_not_break(void **state)
 {
     (void)state;
@@ -391,39 +218,16 @@ static void shallow_water_leaves_what_does_not_break(void **state)
     }
 }
 
-static void seed_tells_the_sea_and_calm_has_none(void **state)
-{
-    struct ocean_desc ocean = describe(8, OCEAN_JONSWAP, 30);
-    struct waves a, b;
-    make(*state, &ocean, &a);
-    ocean.waves.seed = 2;
-    make(*state, &ocean, &b);
-    assert_true(a.components[5].bearing_rad != b.components[5].bearing_rad);
-    waves_finish(&b);
-    ocean.waves.wind_m_s = 0;
-    make(*state, &ocean, &b);
-    assert_int_equal(b.count, 0);
-    assert_true(fabs(b.rest_square - 0.003) < 1e-12);
-    waves_finish(&a);
-    waves_finish(&b);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(full_grown_sea_is_as_high_as_its_integral),
-        cmocka_unit_test(young_sea_is_as_high_as_was_measured),
-        cmocka_unit_test(waves_run_as_in_deep_water),
-        cmocka_unit_test(slopes_are_near_those_of_cox_and_munk),
         cmocka_unit_test(displacement_is_the_papers),
         cmocka_unit_test(normal_is_that_of_the_displaced_surface),
         cmocka_unit_test(nothing_jumps_at_a_pole),
         cmocka_unit_test(anchor_may_be_a_pole),
         cmocka_unit_test(phases_are_exact_after_ten_days),
         cmocka_unit_test(an_eye_that_moves_sees_the_same_waves),
-        cmocka_unit_test(windows_keep_the_mean_square_slope),
         cmocka_unit_test(shallow_water_leaves_what_does_not_break),
-        cmocka_unit_test(seed_tells_the_sea_and_calm_has_none),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, waves_set_up, waves_tear_down);
 }
