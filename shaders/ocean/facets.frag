@@ -12,7 +12,7 @@ uniform float u_has_level;    // 1: there is such
 uniform sampler2D u_albedo;   // a: part that is open water
 uniform sampler2D u_lights;   // a: code of the water's depth
 uniform float u_pixel_rad;
-uniform vec3 u_foam; // where it begins and how wide: sea_foam; mean square of what no pixel shows
+uniform vec2 u_foam; // where it begins and how wide: sea_foam
 
 layout(location = 0) out vec4 o_facet;
 
@@ -36,8 +36,8 @@ vec4 facet(vec3 position, vec4 level, float depth)
     GerstnerNormal turned = gerstner_to_anchor(p, n.x, n.y, n.z);
     // A row times a matrix: the transpose turns local axes back into the planet's.
     vec3 normal = normalize(vec3(turned.x, turned.y, turned.z)) * u_wave_local_from_planet;
-    float all = max(sum.press_square + u_foam.z, 1.0e-12);
-    float lost = sqrt((sum.press_lost + u_foam.z) / all);
+    float all = max(sum.press_square, 1.0e-12);
+    float lost = sqrt(sum.press_lost / all);
     float foam = sea_foam(sum.press * inversesqrt(all), lost, u_foam.x, u_foam.y);
     return vec4(normal * (1.0 + foam), sum.lost_square);
 }

@@ -9,6 +9,8 @@ uniform int u_wave_groups;
 uniform vec4 u_wave_range; // radius of the sea (m), distance of the eye from the centre (m), mean
                            // square slope of what is shorter than all waves; breaking wavenumber
                            // of shared/sea.glsl
+uniform vec3 u_wave_all;   // of all waves in deep water: mean square slope, mean square of what
+                           // presses; the largest wavenumber
 uniform mat3 u_wave_local_from_planet;
 
 // Beyond this part of the radius no wave is looked at: series of angles end there.
@@ -20,15 +22,6 @@ GerstnerPlace waves_place(vec3 from_eye)
     return gerstner_place(local.x, local.y, local.z + u_wave_range.y);
 }
 
-GerstnerWave waves_fetch(int group, int lane)
-{
-    float v[7];
-    for (int i = 0; i < 7; i++) {
-        v[i] = texelFetch(u_waves, ivec2(i, group), 0)[lane];
-    }
-    return GerstnerWave(v[0], v[1], v[2], v[3], v[4], v[5], v[6]);
-}
-
 // Where waves are looked at: a window whose sides along the ground are `x` and `y` (m, axes of the
 // anchor), `least` the shorter one; and how deep the water is, m.
 struct WavesWindow {
@@ -36,33 +29,59 @@ struct WavesWindow {
     float least, depth;
 };
 
-// All waves at a place. What is not shown is in lost_square.
+// One more, of which a mean square slope and a mean square of press are left over.
+GerstnerSum waves_add(GerstnerSum sum, GerstnerWave w, GerstnerPlace p, WavesWindow window,
+                      float near)
+{
+    float steep = w.amplitude * w.wavenumber;
+    float press = steep * sea_breaking(w.wavenumber, u_wave_range.w);
+    GerstnerRipple r =
+        gerstner_ripple(w, p, u_wave_range.x, gerstner_small_angle(gerstner_turn(w, p)));
+    vec2 d = vec2(r.dx, r.dy) * w.wavenumber;
+    float weight = near * gerstner_weight(dot(d, window.x), dot(d, window.y));
+    sum = gerstner_add(sum, w, r, weight);
+    sum.press += press * weight * r.sine;
+    sum.press_square += 0.5 * press * press;
+    sum.press_lost += 0.5 * press * press * (1.0 - weight * weight);
+    return sum;
+}
+
+// Squares of slope and press of the waves that are left, in water of a depth: that leaves of all
+// what it leaves of one in their middle.
+vec2 waves_left(vec2 squares, float longest, float depth)
+{
+    float shoal = gerstner_shoal(sqrt(longest * max(u_wave_all.z, longest)), depth);
+    return max(squares, vec2(0.0)) * (shoal * shoal);
+}
+
+// All waves at a place. What is not shown is in lost_square. The longest come first: where the
+// window leaves no more of a wave, the loop ends, and of the others only the sums count.
 GerstnerSum waves_sum(GerstnerPlace p, WavesWindow window)
 {
     GerstnerSum sum = gerstner_level();
     float near = 1.0 - smoothstep(0.5 * WAVES_REACH, WAVES_REACH, length(vec2(p.vx, p.vy)));
-    bool is_seen = true;
+    float shortest = gerstner_last(near, window.least);
+    vec2 left = u_wave_all.xy;
     for (int g = 0; g < u_wave_groups; g++) {
-        for (int lane = 0; lane < 4; lane++) {
-            GerstnerWave w = waves_fetch(g, lane);
-            w.amplitude *= gerstner_shoal(w.wavenumber, window.depth);
-            is_seen = is_seen && near * gerstner_weight(w.wavenumber * window.least, 0.0) >
-                                     GERSTNER_LEAST_WEIGHT;
+        vec4 v[7];
+        for (int i = 0; i < 7; i++) {
+            v[i] = texelFetch(u_waves, ivec2(i, g), 0);
+        }
+        if (v[4].x > shortest) {
+            vec2 lost = waves_left(left, v[4].x, window.depth);
+            sum.lost_square += lost.x;
+            sum.press_square += lost.y;
+            sum.press_lost += lost.y;
+            break;
+        }
+        for (int i = 0; i < 4; i++) {
+            GerstnerWave w =
+                GerstnerWave(v[0][i], v[1][i], v[2][i], v[3][i], v[4][i], v[5][i], v[6][i]);
             float steep = w.amplitude * w.wavenumber;
             float press = steep * sea_breaking(w.wavenumber, u_wave_range.w);
-            sum.press_square += 0.5 * press * press;
-            if (!is_seen) {
-                sum.lost_square += 0.5 * steep * steep;
-                sum.press_lost += 0.5 * press * press;
-                continue;
-            }
-            GerstnerRipple r =
-                gerstner_ripple(w, p, u_wave_range.x, gerstner_small_angle(gerstner_turn(w, p)));
-            vec2 d = vec2(r.dx, r.dy) * w.wavenumber;
-            float weight = near * gerstner_weight(dot(d, window.x), dot(d, window.y));
-            sum = gerstner_add(sum, w, r, weight);
-            sum.press += press * weight * r.sine;
-            sum.press_lost += 0.5 * press * press * (1.0 - weight * weight);
+            left -= 0.5 * vec2(steep * steep, press * press);
+            w.amplitude *= gerstner_shoal(w.wavenumber, window.depth);
+            sum = waves_add(sum, w, p, window, near);
         }
     }
     sum.lost_square += u_wave_range.z;

@@ -167,6 +167,14 @@ SHARED_FN Number gerstner_weight(Angle along_x, Angle along_y)
     return exp(-0.125 * (along_x * along_x + along_y * along_y));
 }
 
+// The wavenumber of which a window whose shorter side is `least` leaves GERSTNER_LEAST_WEIGHT,
+// where `near` of all waves is shown.
+SHARED_FN PerLength gerstner_last(Number near, Length least)
+{
+    Number ratio = shared_max(near / GERSTNER_LEAST_WEIGHT, 1.0);
+    return sqrt(8.0 * log(ratio)) / shared_max(least, 1.0e-6);
+}
+
 // What water of a depth leaves of an amplitude: the root of the depth factor by which a sea keeps
 // the shape of its saturated spectrum in wavenumbers (Kitaigorodskii et al. 1975, J. Phys.
 // Oceanogr. 5; Bouws et al. 1985, J. Geophys. Res. 90; as parabolas: Thompson and Vincent 1983).

@@ -66,9 +66,7 @@ trl_result facets_draw(struct facets *facets, const struct facets_inputs *in)
     if (result != TRL_OK) {
         return result;
     }
-    // No sea is nearer than the eye is high.
-    const double height_m = vec3_length(in->camera->position_m) - facets->waves.waves->radius_m;
-    wave_texture_bind(&facets->waves, fmax(height_m, 0) * pixel_rad, program);
+    wave_texture_bind(&facets->waves, program);
     gpu_program_set_texture(program, "u_position", in->position);
     gpu_program_set_texture(program, "u_level", in->level ? in->level : in->position);
     gpu_program_set_float(program, "u_has_level", in->level ? 1 : 0);
@@ -76,10 +74,8 @@ trl_result facets_draw(struct facets *facets, const struct facets_inputs *in)
     gpu_program_set_texture(program, "u_lights", in->lights);
     gpu_program_set_float(program, "u_pixel_rad", (float)pixel_rad);
     const struct sea_foam_ramp foam = sea_foam_find(facets->waves.waves->white_share);
-    const float ramp[3] = {
-        (float)foam.first, (float)foam.width,
-        (float)wave_texture_unseen_press(&facets->waves, fmax(height_m, 0) * pixel_rad)};
-    gpu_program_set_vec3(program, "u_foam", ramp);
+    const float ramp[2] = {(float)foam.first, (float)foam.width};
+    gpu_program_set_vec2(program, "u_foam", ramp);
     gpu_program_set_float(program, "u_depth", in->water_depth);
     const struct gpu_pass pass = {
         .target = &facets->target, .state = {.depth = GPU_DEPTH_FARTHER}, .clears_color = true};

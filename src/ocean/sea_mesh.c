@@ -8,14 +8,12 @@
 
 #include <math.h>
 
-// Vertices to a side; the shore is looked at for every second one. Rings are summed in strips, each
-// with as many waves as its cells resolve.
+// Vertices to a side; the shore is looked at for every second one.
 enum {
     COLUMNS = SEA_GRID_SPOKES + 1,
     ROWS = SEA_GRID_RINGS + 1,
     SHORE_COLUMNS = SEA_GRID_SPOKES / 2 + 1,
-    SHORE_ROWS = SEA_GRID_RINGS / 2 + 1,
-    STRIPS = 12
+    SHORE_ROWS = SEA_GRID_RINGS / 2 + 1
 };
 
 static trl_result make_texture(struct gpu *gpu, const struct gpu_texture_desc *wanted,
@@ -210,21 +208,12 @@ static trl_result find_open(struct sea_mesh *m)
 static trl_result draw_crests(struct sea_mesh *m)
 {
     struct gpu_program *program = &m->crest_program;
-    const SeaGrid grid = m->plan.grid;
     set_grid(m, program);
     gpu_program_set_texture(program, "u_shore", &m->shore);
-    trl_result result = TRL_OK;
-    for (uint32_t i = 0; i < STRIPS && result == TRL_OK; i++) {
-        const uint32_t first = i * ROWS / STRIPS, end = (i + 1) * ROWS / STRIPS;
-        const double radius_m = sea_grid_radius(grid, first);
-        const double side_m = fmin(sea_grid_long(grid, radius_m), sea_grid_wide(grid, radius_m));
-        wave_texture_bind(m->waves, SEA_GRID_WINDOW * side_m, program);
-        const struct gpu_pass pass = {.target = &m->crest_target,
-                                      .scissor = {0, first, COLUMNS, end - first}};
-        gpu_pass_begin(m->gpu, &pass);
-        result = gpu_draw_fullscreen(program, "vertices of the sea");
-    }
-    return result;
+    wave_texture_bind(m->waves, program);
+    const struct gpu_pass pass = {.target = &m->crest_target};
+    gpu_pass_begin(m->gpu, &pass);
+    return gpu_draw_fullscreen(program, "vertices of the sea");
 }
 
 static void set_view(struct sea_mesh *m, const struct camera *c, const struct anchor *anchor)

@@ -58,51 +58,39 @@ trl_result wave_texture_update(struct wave_texture *t, struct vec3 eye_m, double
     return result;
 }
 
-// Groups of which a window with sides of at least that leaves something. The others only add to the
-// roughness, which they do here: loops of shaders cost the same whatever is in them.
-static uint32_t count_shown(const struct wave_texture *t, double least_m, double *rest_square)
+static double breaking_of(const struct wave_texture *t)
 {
-    uint32_t shown = t->view->groups;
-    *rest_square = t->waves->rest_square;
-    while (shown > 0) {
-        const uint32_t first = (shown - 1) * WAVES_LANES;
-        const GerstnerWave longest = waves_view_get(t->view, first);
-        if (gerstner_weight(longest.wavenumber * least_m, 0) > GERSTNER_LEAST_WEIGHT) {
-            break;
-        }
-        for (uint32_t i = first; i < first + WAVES_LANES; i++) {
-            const GerstnerWave w = waves_view_get(t->view, i);
-            const double steep = w.amplitude * w.wavenumber;
-            *rest_square += 0.5 * steep * steep;
-        }
-        shown--;
-    }
-    return shown;
+    return fmax(t->waves->breaking_per_m, 1e-9);
 }
 
-double wave_texture_unseen_press(const struct wave_texture *t, double least_m)
+// Of all waves in deep water, from which shaders find what they have not looked at: they end where
+// no wave is left, and a sum of the rest would be a loop over it. As u_wave_all.
+static void sum_all(const struct wave_texture *t, float all[3])
 {
-    double rest_square = 0, sum = 0;
-    const uint32_t shown = count_shown(t, least_m, &rest_square);
-    for (uint32_t i = shown * WAVES_LANES; i < t->view->count; i++) {
+    double square = 0, press_square = 0, shortest = 0;
+    for (uint32_t i = 0; i < t->view->count; i++) {
         const GerstnerWave w = waves_view_get(t->view, i);
-        const double press =
-            w.amplitude * w.wavenumber * sea_breaking(w.wavenumber, t->waves->breaking_per_m);
-        sum += 0.5 * press * press;
+        const double steep = w.amplitude * w.wavenumber;
+        const double press = steep * sea_breaking(w.wavenumber, breaking_of(t));
+        square += 0.5 * steep * steep;
+        press_square += 0.5 * press * press;
+        shortest = w.wavenumber;
     }
-    return sum;
+    all[0] = (float)square;
+    all[1] = (float)press_square;
+    all[2] = (float)shortest;
 }
 
-void wave_texture_bind(const struct wave_texture *t, double least_m, struct gpu_program *program)
+void wave_texture_bind(const struct wave_texture *t, struct gpu_program *program)
 {
-    double rest_square = 0;
-    const uint32_t shown = count_shown(t, least_m, &rest_square);
     const float range[4] = {(float)t->waves->radius_m, (float)vec3_length(t->place),
-                            (float)rest_square, (float)fmax(t->waves->breaking_per_m, 1e-9)};
-    float local_from_planet[9];
+                            (float)t->waves->rest_square, (float)breaking_of(t)};
+    float local_from_planet[9], all[3];
     waves_local_from_planet(t->place, local_from_planet);
+    sum_all(t, all);
     gpu_program_set_texture(program, "u_waves", &t->texture);
-    gpu_program_set_int(program, "u_wave_groups", (int32_t)shown);
+    gpu_program_set_int(program, "u_wave_groups", (int32_t)t->view->groups);
     gpu_program_set_vec4(program, "u_wave_range", range);
+    gpu_program_set_vec3(program, "u_wave_all", all);
     gpu_program_set_mat3(program, "u_wave_local_from_planet", local_from_planet);
 }

@@ -27,12 +27,7 @@ void wave_texture_finish(struct wave_texture *texture);
 TRL_MUST_USE trl_result wave_texture_update(struct wave_texture *texture, struct vec3 eye_m,
                                             double time_s);
 
-// After an update. `least_m`: no pixel that the program draws is smaller than that on the sea;
-// waves too short for it are not looked at, only their slopes.
-void wave_texture_bind(const struct wave_texture *texture, double least_m,
-                       struct gpu_program *program);
-
-// Mean square of what the waves that are then not looked at press together, of those that break.
-double wave_texture_unseen_press(const struct wave_texture *texture, double least_m);
+// After an update.
+void wave_texture_bind(const struct wave_texture *texture, struct gpu_program *program);
 
 #endif // OCEAN_WAVE_TEXTURE_H

@@ -124,8 +124,8 @@ static struct vec3 move_vertex(const struct sea *s, double ring, double spoke, d
         const double side = r.dx * cos(azimuth) - r.dy * sin(azimuth);
         const double weight =
             gerstner_weight(w.wavenumber * along * out, w.wavenumber * across * side);
-        const bool is_shown =
-            gerstner_weight(w.wavenumber * fmin(along, across), 0) > GERSTNER_LEAST_WEIGHT;
+        const double first = waves_view_get(s->texture.view, i - i % WAVES_LANES).wavenumber;
+        const bool is_shown = first <= gerstner_last(1, fmin(along, across));
         sum = gerstner_add(sum, w, r, is_shown ? weight : 0);
     }
     const double shown = sea_grid_shown(plan->grid, hypot(radius_m, plan->eye_height_m));
