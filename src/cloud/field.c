@@ -11,6 +11,35 @@
 // Finer than the volume is between clouds, a map only moves them: 20 km on Earth.
 enum { MAP_MAX_SIDE = 2048, LONGEST_ERROR = 1024 };
 
+static trl_result check_map(const struct raster *raster)
+{
+    if (!raster->is_whole_circle || raster->type != RASTER_UINT8) {
+        return trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                        "%s: a map of clouds must be of 8 bits (gdal_translate -ot Byte -scale) "
+                        "and go around the planet",
+                        raster->path);
+    }
+    return raster->width >= 2 && raster->height >= 2
+               ? TRL_OK
+               : trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                          "%s: %u x %u pixels; a map of clouds needs at least 2 x 2", raster->path,
+                          raster->width, raster->height);
+}
+
+// Parts of 1; where it has no data there are no clouds.
+static trl_result take_values(const trl_context *ctx, const char *path, struct raster_grid *grid)
+{
+    bool has_data = false;
+    for (size_t i = 0; i < (size_t)grid->width * grid->height; i++) {
+        const float value = grid->values[i] / 255;
+        has_data = has_data || value >= 0;
+        grid->values[i] = value >= 0 ? value : 0;
+    }
+    return has_data ? TRL_OK
+                    : trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                               "%s: no pixel of it has data", path);
+}
+
 static trl_result load_map(const trl_context *ctx, const char *path, struct raster_grid *out)
 {
     struct raster raster;
@@ -18,19 +47,17 @@ static trl_result load_map(const trl_context *ctx, const char *path, struct rast
     if (result != TRL_OK) {
         return result;
     }
-    if (!raster.is_whole_circle || raster.type != RASTER_UINT8) {
-        result = trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
-                          "%s: a map of clouds must be of 8 bits (gdal_translate -ot Byte -scale) "
-                          "and go around the planet",
-                          path);
-    } else {
+    result = check_map(&raster);
+    if (result == TRL_OK) {
         result = raster_grid_load(&raster, MAP_MAX_SIDE, out);
+        if (result == TRL_OK) {
+            result = take_values(ctx, path, out);
+        }
+        if (result != TRL_OK) {
+            raster_grid_finish(out);
+        }
     }
     raster_finish(&raster);
-    for (size_t i = 0; result == TRL_OK && i < (size_t)out->width * out->height; i++) {
-        const float value = out->values[i] / 255;
-        out->values[i] = value >= 0 ? value : 0; // no data: no clouds
-    }
     return result;
 }
 

@@ -27,16 +27,26 @@ static void catch_message(CPLErr kind, CPLErrorNum number, const char *text)
     }
 }
 
+// The only file that may be opened; this is none.
+static const char ALLOWED_FILE[] = "CPL_VSIL_CURL_ALLOWED_FILENAME";
+
+void gdal_close_network(bool is_closed)
+{
+    CPLSetThreadLocalConfigOption(ALLOWED_FILE, is_closed ? "none" : NULL);
+}
+
 void gdal_catch_begin(struct gdal_catcher *catcher, const trl_context *ctx)
 {
-    *catcher = (struct gdal_catcher){.ctx = ctx};
+    *catcher = (struct gdal_catcher){
+        .ctx = ctx, .was_closed = CPLGetThreadLocalConfigOption(ALLOWED_FILE, NULL) != NULL};
+    gdal_close_network(true);
     CPLErrorReset();
     CPLPushErrorHandlerEx(catch_message, catcher);
 }
 
 void gdal_catch_end(struct gdal_catcher *catcher)
 {
-    (void)catcher;
+    gdal_close_network(catcher->was_closed);
     CPLPopErrorHandler();
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "raster/raster.h"
 
+#include "raster/beside.h"
 #include "raster/gdal.h"
 #include "raster/georeference.h"
 #include "raster/palette.h"
@@ -93,14 +94,48 @@ static trl_result fail_to_open(const struct raster *raster, const struct gdal_ca
                     says[0] ? " (" : "", says, says[0] ? ")" : "");
 }
 
+static trl_result check_beside(const struct raster *raster)
+{
+    char *name = raster->is_remote ? NULL : beside_find_stranger(raster->path);
+    if (!name) {
+        return TRL_OK;
+    }
+    const trl_result result =
+        trl_fail(raster->ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_RASTER,
+                 "%s: \"%s\" beside it is no TIFF, and may lead elsewhere; move it away",
+                 raster->path, name);
+    CPLFree(name);
+    return result;
+}
+
+static trl_result check_pointer(struct raster *raster)
+{
+    if (!raster->dataset || !beside_is_pointed_at(raster->dataset)) {
+        return TRL_OK;
+    }
+    GDALClose(raster->dataset);
+    raster->dataset = NULL;
+    return fail_file(raster, TRL_ERROR_INVALID,
+                     "it names another file as its overviews, and only those in it or beside it "
+                     "are read; make them anew (gdaladdo -r average)");
+}
+
 static trl_result open_dataset(struct raster *raster, bool is_threaded)
 {
     gdal_register();
     struct gdal_catcher catcher;
     gdal_catch_begin(&catcher, raster->ctx);
-    remote_begin(raster->is_remote);
-    raster->dataset = is_threaded ? open_threaded(raster) : open_with(raster, NULL);
-    remote_end(raster->is_remote);
+    trl_result result = check_beside(raster);
+    if (result == TRL_OK) {
+        remote_begin(raster->is_remote);
+        raster->dataset = is_threaded ? open_threaded(raster) : open_with(raster, NULL);
+        result = check_pointer(raster);
+        remote_end(raster->is_remote);
+    }
+    if (result != TRL_OK) {
+        gdal_catch_end(&catcher);
+        return result;
+    }
     if (raster->dataset && palette_is_there(raster->dataset)) {
         raster->dataset = palette_expand(raster->dataset);
         raster->has_palette = true;
@@ -123,10 +158,12 @@ trl_result raster_open(const trl_context *ctx, const char *path, struct raster *
     if (result == TRL_OK) {
         struct gdal_catcher catcher;
         gdal_catch_begin(&catcher, ctx);
+        remote_begin(out->is_remote);
         result = raster_read_facts(out);
         if (result == TRL_OK) {
             result = raster_read_georeference(out);
         }
+        remote_end(out->is_remote);
         gdal_catch_end(&catcher);
     }
     if (result != TRL_OK) {
@@ -144,7 +181,9 @@ trl_result raster_open_again(const struct raster *raster, struct raster *out)
     if (result == TRL_OK && raster->source) {
         struct gdal_catcher catcher;
         gdal_catch_begin(&catcher, raster->ctx);
+        remote_begin(out->is_remote);
         result = raster_warp(out);
+        remote_end(out->is_remote);
         gdal_catch_end(&catcher);
     }
     if (result != TRL_OK) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "raster/remote.h"
 
+#include "raster/gdal.h"
+
 #include <cpl_conv.h>
 #include <string.h>
 
@@ -56,6 +58,7 @@ char *remote_vsi_path(const trl_context *ctx, const char *path)
 
 void remote_begin(bool is_remote)
 {
+    gdal_close_network(!is_remote);
     for (int i = 0; is_remote && i < OPTION_COUNT; i++) {
         if (!OPTIONS[i].is_limit || !CPLGetConfigOption(OPTIONS[i].name, NULL)) {
             CPLSetThreadLocalConfigOption(OPTIONS[i].name, OPTIONS[i].value);
@@ -65,6 +68,7 @@ void remote_begin(bool is_remote)
 
 void remote_end(bool is_remote)
 {
+    gdal_close_network(true);
     for (int i = 0; is_remote && i < OPTION_COUNT; i++) {
         CPLSetThreadLocalConfigOption(OPTIONS[i].name, NULL);
     }

@@ -15,8 +15,9 @@ bool remote_is_path(const char *path);
 // GDAL's name of a remote path; owned by the caller. NULL (logged) when memory is out.
 char *remote_vsi_path(const trl_context *ctx, const char *path);
 
-// Between begin and end GDAL reads on this thread with time limits, asks for no file beside the one
-// that is named, and takes the header in one piece. Nothing happens where `is_remote` is false.
+// Between begin and end GDAL reaches networks on this thread, with time limits, asks for no file
+// beside the one that is named, and takes the header in one piece. Inside of gdal_catch_begin and
+// _end, which let it reach none. Nothing happens where `is_remote` is false.
 void remote_begin(bool is_remote);
 void remote_end(bool is_remote);
 

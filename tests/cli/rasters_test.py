@@ -21,13 +21,13 @@ def write_tiff(path, width, height):
     """A globe of 16-bit heights in tiles of 256 x 256, as little of TIFF and GeoTIFF as that needs."""
     tiles_x, tiles_y = -(-width // 256), -(-height // 256)
     offsets, data = [], bytearray()
+    waves = [900 * math.sin(14 * math.pi * x / width) for x in range(256 * tiles_x)]
     for tile in range(tiles_x * tiles_y):
         texels = array.array("h")
+        first = tile % tiles_x * 256
         for y in range(256):
-            v = (tile // tiles_x * 256 + y) / height
-            wave = 900 * math.sin(9 * math.pi * v)
-            u0 = tile % tiles_x * 256 / width
-            texels.extend(int(wave * math.sin(14 * math.pi * (u0 + x / width)) + 400) for x in range(256))
+            wave = math.sin(9 * math.pi * (tile // tiles_x * 256 + y) / height)
+            texels.extend([int(wave * w + 400) for w in waves[first:first + 256]])
         offsets.append(len(data))
         data += texels.tobytes()
     keys = struct.pack("<16H", 1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 1, 2048, 0, 1, 4326)
@@ -62,14 +62,14 @@ def globe_scene(elevation):
 
 
 class RastersTest(ProgramTest):
-    """Of the globe, 3072 x 1536 heights, held whole 44 MB of the 64 that there are to be."""
+    """Held whole, a globe of 3840 x 1920 heights takes 69 MB: of the least memory there is, 64, it is held in tiles."""
 
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
         cls.served = pathlib.Path(cls.shared_cache) / "served-folder"
         cls.served.mkdir()
-        write_tiff(cls.served / "globe.tif", 3072, 1536)
+        write_tiff(cls.served / "globe.tif", 3840, 1920)
 
     def setUp(self):
         super().setUp()
@@ -247,7 +247,7 @@ class BadTilesTest(ProgramTest):
 
     def test_a_file_without_its_second_half(self):
         path = self.data / "globe.tif"
-        write_tiff(path, 3072, 1536)
+        write_tiff(path, 3840, 1920)
         data = path.read_bytes()
         # All tiles of the southern half point behind the file's end.
         (directory,) = struct.unpack("<I", data[4:8])

@@ -10,6 +10,8 @@
 #include "cloud/field.h"
 #include "shared/cloud.glsl"
 
+#include <gdal.h>
+#include <ogr_srs_api.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -297,6 +299,25 @@ static void keep_last(void *user, trl_log_level level, trl_log_item item, const 
     }
 }
 
+// Of the whole globe, all of it 0, which may stand for no data.
+static void write_map(const char *path, int width, int height, bool is_void)
+{
+    GDALAllRegister();
+    const GDALDatasetH file =
+        GDALCreate(GDALGetDriverByName("GTiff"), path, width, height, 1, GDT_Byte, NULL);
+    assert_non_null(file);
+    double transform[6] = {-180, 360.0 / width, 0, 90, 0, -180.0 / height};
+    assert_int_equal(GDALSetGeoTransform(file, transform), CE_None);
+    const OGRSpatialReferenceH srs = OSRNewSpatialReference(NULL);
+    assert_int_equal(OSRImportFromEPSG(srs, 4326), OGRERR_NONE);
+    assert_int_equal(GDALSetSpatialRef(file, srs), CE_None);
+    OSRDestroySpatialReference(srs);
+    if (is_void) {
+        assert_int_equal(GDALSetRasterNoDataValue(GDALGetRasterBand(file, 1), 0), CE_None);
+    }
+    GDALClose(file);
+}
+
 // As a raster of the surface: told with its key, and the planet is drawn.
 static void a_map_that_is_no_good_is_left_out(void **state)
 {
@@ -324,6 +345,17 @@ static void a_map_that_is_no_good_is_left_out(void **state)
     assert_non_null(strstr(said, path));
     assert_non_null(strstr(said, "left out"));
     cloud_field_finish(&field);
+    static const int SIZES[4][2] = {{1, 1}, {100000, 1}, {8, 4}, {8, 4}};
+    static const char *const WHY[4] = {"at least 2 x 2", "at least 2 x 2",
+                                       "no pixel of it has data", ""};
+    for (int i = 0; i < 4; i++) {
+        said[0] = 0;
+        write_map(path, SIZES[i][0], SIZES[i][1], i == 2);
+        assert_int_equal(cloud_field_init(ctx, &clouds, RADIUS_M, &field), TRL_OK);
+        assert_int_equal(field.has_map, i == 3);
+        assert_non_null(strstr(said, WHY[i]));
+        cloud_field_finish(&field);
+    }
     unlink(path);
     trl_context_destroy(&ctx);
 }

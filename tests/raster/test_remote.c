@@ -3,6 +3,7 @@
 // Rasters behind a network, served on the loopback by range_server.py, which counts: only when
 // allowed, only the named file, and only the parts that are needed. The argument is the server.
 #include "fixture.h"
+#include "raster/gdal.h"
 #include "raster/remote.h"
 #include "raster/tile_cache.h"
 
@@ -157,6 +158,30 @@ static void nothing_is_fetched_unless_allowed(void **state)
     assert_int_equal(count_served(f, ""), 0);
 }
 
+// Whatever else a file makes GDAL open: it reaches no server, except where a remote raster is read.
+static void gdal_reaches_a_network_for_remote_rasters_only(void **state)
+{
+    struct fixture *f = *state;
+    write_globe(f, "globe.tif", 256, false);
+    char vsi[160];
+    snprintf(vsi, sizeof vsi, "/vsicurl/%s", url_of(f, "globe.tif"));
+    struct gdal_catcher outer, inner;
+    gdal_catch_begin(&outer, f->ctx);
+    gdal_catch_begin(&inner, f->ctx);
+    gdal_catch_end(&inner);
+    remote_begin(false);
+    assert_null(GDALOpen(vsi, GA_ReadOnly));
+    remote_end(false);
+    assert_int_equal(count_served(f, ""), 0);
+    remote_begin(true);
+    const GDALDatasetH opened = GDALOpen(vsi, GA_ReadOnly);
+    remote_end(true);
+    assert_non_null(opened);
+    GDALClose(opened);
+    gdal_catch_end(&outer);
+    assert_true(count_served(f, "globe.tif") > 0);
+}
+
 static void other_virtual_files_stay_refused(void **state)
 {
     struct fixture *f = *state;
@@ -167,6 +192,76 @@ static void other_virtual_files_stay_refused(void **state)
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         assert_int_equal(raster_open(f->ctx, paths[i], &raster), TRL_ERROR_INVALID);
     }
+}
+
+static void put_text(const struct fixture *f, const char *name, const char *format)
+{
+    char path[160], text[512], url[128];
+    snprintf(path, sizeof path, "%s/%s", f->folder, name);
+    snprintf(url, sizeof url, "%s", url_of(f, "globe.tif"));
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    snprintf(text, sizeof text, format, url);
+    fputs(text, file);
+    fclose(file);
+}
+
+// Refuses to open a local file, in one line that says why.
+static void expect_not_opened(struct fixture *f, const char *name, const char *why)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", f->folder, name);
+    struct raster raster;
+    f->errors = 0;
+    assert_int_equal(raster_open(f->ctx, path, &raster), TRL_ERROR_INVALID);
+    assert_int_equal(f->errors, 1);
+    assert_non_null(strstr(f->last, why));
+}
+
+// A local raster may come from a stranger: neither what it says itself nor what lies beside it
+// makes the program ask a server.
+static void local_files_lead_to_no_network(void **state)
+{
+    struct fixture *f = *state;
+    static const char VRT[] =
+        "<VRTDataset rasterXSize=\"256\" rasterYSize=\"128\"><VRTRasterBand dataType=\"Int16\" "
+        "band=\"1\"><SimpleSource><SourceFilename>/vsicurl/%s</SourceFilename><SourceBand>1"
+        "</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    static const char WMS[] =
+        "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>%s</ServerUrl></Service><DataWindow>"
+        "<UpperLeftX>-180</UpperLeftX><UpperLeftY>90</UpperLeftY><LowerRightX>180</LowerRightX>"
+        "<LowerRightY>-90</LowerRightY><SizeX>256</SizeX><SizeY>128</SizeY></DataWindow>"
+        "</GDAL_WMS>";
+    static const char PAM[] =
+        "<PAMDataset><Metadata domain=\"OVERVIEWS\"><MDI key=\"OVERVIEW_FILE\">/vsicurl/%s</MDI>"
+        "</Metadata></PAMDataset>";
+    write_globe(f, "globe.tif", 256, false);
+    write_globe(f, "local.tif", 512, false);
+    put_text(f, "local.tif.aux.xml", PAM);
+    expect_not_opened(f, "local.tif", "names another file as its overviews");
+    put_text(f, "local.tif.aux.xml", "<PAMDataset/>");
+    static const char *const NAMES[] = {"local.tif.ovr", "local.tif.OVR", "local.tif.msk"};
+    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) {
+        char path[160];
+        snprintf(path, sizeof path, "%s/%s", f->folder, NAMES[i]);
+        put_text(f, NAMES[i], VRT);
+        expect_not_opened(f, "local.tif", NAMES[i]);
+        put_text(f, NAMES[i], WMS);
+        expect_not_opened(f, "local.tif", NAMES[i]);
+        assert_int_equal(unlink(path), 0);
+    }
+    // Overviews beside it are read, if they lead nowhere.
+    write_globe(f, "local.tif.ovr", 256, false);
+    put_text(f, "local.tif.ovr.aux.xml", PAM);
+    expect_not_opened(f, "local.tif", "local.tif.ovr");
+    put_text(f, "local.tif.ovr.aux.xml", "<PAMDataset/>");
+    char path[128];
+    struct raster raster;
+    snprintf(path, sizeof path, "%s/local.tif", f->folder);
+    assert_int_equal(raster_open(f->ctx, path, &raster), TRL_OK);
+    assert_true(raster_has_overview(&raster, 256, 128));
+    raster_finish(&raster);
+    assert_int_equal(count_served(f, ""), 0);
 }
 
 static void open_remote(struct fixture *f, const char *name, struct pyramid *out)
@@ -379,6 +474,9 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(nothing_is_fetched_unless_allowed, set_up_refusing,
                                         tear_down_server),
+        cmocka_unit_test_setup_teardown(local_files_lead_to_no_network, set_up_refusing,
+                                        tear_down_server),
+        SERVED(gdal_reaches_a_network_for_remote_rasters_only),
         SERVED(other_virtual_files_stay_refused),
         SERVED(of_a_cloud_file_only_parts_are_fetched),
         SERVED(a_server_that_fails_is_given_up_and_asked_again_later),
