@@ -190,8 +190,8 @@ static void draw_flying(trl_renderer *renderer, int frame, float *radiance)
     assert_int_equal(trl_renderer_read_radiance(renderer, radiance), TRL_OK);
 }
 
-// As if it had been there from the start. The projective mesh looks at the frame before for its
-// reference sphere, so a pixel at a silhouette may differ.
+// As if it had been there from the start. Borders of the quadtree's squares depend on the way there
+// by a float's last digits (decision 031), so a pixel at a silhouette may differ.
 static void meshers_are_changed_in_flight(void **state)
 {
     const struct setup *s = *state;

@@ -421,6 +421,54 @@ static void test_impostor_takes_over_unseen(void **state)
     destroy_planet(&p);
 }
 
+static struct camera draw_from_afar(struct planet *p, double radii)
+{
+    const struct shot shot = {"far", {30, 30, 0, radii * R, 40, -89, 20 + 100 / (1 + radii)}, 30};
+    const struct camera camera = place_camera(p, &shot);
+    fixture_picture_draw(&p->picture, p->mesher, &camera);
+    return camera;
+}
+
+// On both sides of the distance at which one takes over from the other.
+static void test_mesh_and_impostor_are_the_same_where_they_change(void **state)
+{
+    enum { COUNT = PICTURE_SIDE * PICTURE_SIDE };
+    static double before[COUNT];
+    struct planet p;
+    make_default_planet(*state, &p);
+    double near = 1, far = 150;
+    for (int i = 0; i < 24; i++) {
+        const double middle = sqrt(near * far);
+        draw_from_afar(&p, middle);
+        *(p.mesher->stats.triangles > 0 ? &near : &far) = middle;
+    }
+    struct camera camera = draw_from_afar(&p, near);
+    assert_true(p.mesher->stats.triangles > 0);
+    for (int k = 0; k < COUNT; k++) {
+        before[k] = is_ground(&p, k) ? find_error(&p, &camera, k) : (double)NAN;
+    }
+    camera = draw_from_afar(&p, far);
+    assert_int_equal(p.mesher->stats.triangles, 0);
+    double largest = 0;
+    int ground = 0, limb = 0;
+    for (int k = 0; k < COUNT; k++) {
+        const bool was = !isnan(before[k]);
+        limb += was != is_ground(&p, k);
+        if (was && is_ground(&p, k)) {
+            largest = fmax(largest, fabs(find_error(&p, &camera, k) - before[k]));
+            ground++;
+        }
+    }
+    print_message(
+        "from mesh to impostor at %.1f radii: %.4f pixels at most, %d of %d at the limb\n", far,
+        largest, limb, ground);
+    assert_true(ground > 500);
+    assert_true(largest < 0.1);
+    // The mesh's chords lie within the arc, by what a pixel's middle hardly sees.
+    assert_true(limb <= ground / 100);
+    destroy_planet(&p);
+}
+
 // The ground must not swim: between two frames from places a tenth of a pixel apart, the mesh moves
 // against the ground by less than that.
 static void test_mesh_does_not_swim(void **state)
@@ -481,6 +529,7 @@ int main(void)
         cmocka_unit_test(test_every_grid_draws_the_same_ground),
         cmocka_unit_test(test_it_agrees_with_the_hemisphere),
         cmocka_unit_test(test_impostor_takes_over_unseen),
+        cmocka_unit_test(test_mesh_and_impostor_are_the_same_where_they_change),
         cmocka_unit_test(test_mesh_does_not_swim),
         cmocka_unit_test(test_grids_that_cannot_be_are_refused),
     };

@@ -391,6 +391,73 @@ static void test_neighbours_draw_the_same_border(void **state)
     destroy_planet(&p);
 }
 
+// Whether all of a square lies beyond one side of the picture.
+static bool is_outside(const struct quadtree_nodes *nodes, uint32_t index,
+                       const struct camera *camera)
+{
+    static float grids[QUADTREE_SIDE][QUADTREE_GRIDS][QUADTREE_SIDE][4];
+    const struct vec3 origin = vec3_sub(nodes->all[index].origin_m, camera->position_m);
+    int beyond[4] = {0};
+    quadtree_node_vertices(nodes, index, grids);
+    for (int k = 0; k < QUADTREE_VERTICES; k++) {
+        const float *v = grids[k / QUADTREE_SIDE][0][k % QUADTREE_SIDE];
+        const struct vec3 at =
+            vec3_add(origin, (struct vec3){(double)v[0], (double)v[1], (double)v[2]});
+        const double z = vec3_dot(camera->forward, at);
+        const double x = vec3_dot(camera->right, at) / camera->tan_half_fov_x;
+        const double y = vec3_dot(camera->up, at) / camera->tan_half_fov_y;
+        beyond[0] += x > z;
+        beyond[1] += -x > z;
+        beyond[2] += y > z;
+        beyond[3] += -y > z;
+    }
+    for (int side = 0; side < 4; side++) {
+        if (beyond[side] == QUADTREE_VERTICES) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Both stages of clipping: whole tiles, and squares down the tree.
+static void test_what_is_out_of_view_is_clipped(void **state)
+{
+    static const double HEIGHTS[4] = {20, 3000, 2e5, 3e6};
+    struct planet p;
+    make_planet(*state, TRL_MESHER_QUADTREE, &p);
+    struct quadtree_nodes nodes;
+    assert_int_equal(quadtree_nodes_init(&p.surface, &nodes), TRL_OK);
+    struct quadtree_leaves *leaves = malloc(sizeof *leaves);
+    assert_non_null(leaves);
+    for (size_t i = 0; i < 4; i++) {
+        uint32_t tiles = 0, squares = 0, outside = 0;
+        for (size_t k = 0; k < PLACE_COUNT; k++) {
+            struct camera_place place = PLACES[k];
+            place.fov = 40;
+            place.pitch = i < 2 ? -5 : -60;
+            const struct camera camera = place_camera(&p, place, HEIGHTS[i]);
+            assert_int_equal(quadtree_refine(&nodes, &camera, 3e-4, leaves), TRL_OK);
+            for (int32_t tile = 0; tile < TILES_COUNT; tile++) {
+                tiles += nodes.all[quadtree_root(tile)].is_near;
+            }
+            squares += leaves->count;
+            for (uint32_t n = 0; n < leaves->count; n++) {
+                outside += is_outside(&nodes, leaves->all[n].node, &camera);
+            }
+        }
+        printf("from %g m: %.1f tiles, %.0f squares, %.1f %% of them outside\n", HEIGHTS[i],
+               1.0 * tiles / PLACE_COUNT, 1.0 * squares / PLACE_COUNT, 100.0 * outside / squares);
+        // Half of all tiles are behind the horizon, most of the others beside the picture.
+        assert_true(tiles < PLACE_COUNT * TILES_COUNT / 4);
+        // Balls around squares reach out of them: few squares on a small planet, each as large as a
+        // third of the picture, count most. Of Earth from a valley 2 % are outside.
+        assert_true(outside < squares / 2);
+    }
+    free(leaves);
+    quadtree_nodes_finish(&nodes);
+    destroy_planet(&p);
+}
+
 // The largest change of the ground between two pictures taken straight down from one place, in
 // pixels of the later one: altitudes of the first are looked up where its camera saw them.
 static double find_change_px(const float *before, const struct camera *old_camera,
@@ -550,6 +617,7 @@ int main(void)
         cmocka_unit_test(test_there_are_no_holes),
         cmocka_unit_test(test_it_draws_what_the_hemisphere_draws),
         cmocka_unit_test(test_neighbours_draw_the_same_border),
+        cmocka_unit_test(test_what_is_out_of_view_is_clipped),
         cmocka_unit_test(test_a_descent_shows_no_jump),
         cmocka_unit_test(test_a_camera_that_stays_makes_nothing_new),
         cmocka_unit_test(test_less_error_takes_more_triangles),
