@@ -40,7 +40,8 @@ static const struct scene SCENES[] = {
     {{.latitude = 5, .longitude = -70, .heading = 200, .pitch = -30, .fov = 90}, 0.01},
     {{.latitude = 20, .longitude = 60, .heading = 0, .pitch = 5, .fov = 50}, 2},     // the trench
     {{.latitude = 26.5, .longitude = 61, .heading = 0, .pitch = 12, .fov = 50}, 20}, // below peaks
-    {{.latitude = 10, .longitude = 60, .heading = 0, .pitch = 1, .fov = 15}, 300}, // peaks far off
+    // Peaks 6 degrees away, of which the horizon hides the lower 5 km.
+    {{.latitude = 36, .longitude = 60, .heading = 180, .pitch = 1, .fov = 15}, 2},
     {{.latitude = -89.99, .longitude = 10, .heading = 90, .pitch = -5, .fov = 60}, 500},
     {{.latitude = 2, .longitude = 180, .heading = 120, .pitch = -12, .fov = 70}, 2e4},
     {{.latitude = 25, .longitude = 40, .heading = 80, .pitch = -60, .fov = 60}, 3e5},
