@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // terrella: finds the command and lets it run.
 #include "commands.h"
+#include "idle_threads.h"
 
 #include <terrella/base.h>
 
@@ -88,5 +89,6 @@ static enum exit_status run(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    idle_threads_sleep(argv);
     return finish_output(run(argc, argv));
 }
