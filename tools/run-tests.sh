@@ -11,6 +11,9 @@ sanitized=build/sanitize
 # `objects` are tests of other suites that make and destroy much.
 sanitized_suites=(base scene raster gpu objects cli fuzz)
 
+# Two tests share the processor: threads that wait leave it to the other.
+export OMP_WAIT_POLICY=passive
+
 run_meson_test() { # folder, meson test's options
     local folder=$1
     shift

@@ -17,6 +17,8 @@ PROGRAM = os.environ["TERRELLA_PROGRAM"]
 SCENES = pathlib.Path(os.environ["TERRELLA_SCENES"])
 # A build with sanitizers, where solving takes several times as long: tests repeat less.
 IS_SLOW = os.environ.get("TERRELLA_IS_SLOW") == "1"
+# The tests of a file share the cache, so that a scene is solved once; one that is about the cache sets its own.
+SHARED_CACHE = tempfile.TemporaryDirectory(prefix="terrella-test-cache-")
 
 # A thin grey atmosphere of one constituent: the solver needs a moment for it.
 THIN_SCENE = {
@@ -63,21 +65,13 @@ def require_gl():
 
 
 class ProgramTest(unittest.TestCase):
-    """Each test has a folder of its own, with data in it, and finds nothing left behind.
-
-    The tests of a class share the cache, so that a scene is solved once; one that is about the cache sets its own.
-    """
-
-    @classmethod
-    def setUpClass(cls):
-        cls.shared_cache = pathlib.Path(tempfile.mkdtemp(prefix="terrella-test-cache-"))
-        cls.addClassCleanup(shutil.rmtree, cls.shared_cache)
+    """Each test has a folder of its own, with data in it, and finds nothing left behind."""
 
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="terrella-test-"))
         self.addCleanup(shutil.rmtree, self.folder)
         self.data = self.folder / "data"
-        self.cache = self.shared_cache
+        self.cache = pathlib.Path(SHARED_CACHE.name)
         self.work = self.folder / "work"
         self.data.mkdir()
         self.work.mkdir()

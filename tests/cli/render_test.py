@@ -448,9 +448,9 @@ class Cache(ProgramTest):
         for table in tables:
             whole = table.read_bytes()
             # Its head, its numbers, its length: each of them is looked at. Every picture solves again.
-            broken = [b"", whole + b"x", self.flip(whole, 0), self.flip(whole, len(whole) - 1)]
+            broken = [self.flip(whole, 0), self.flip(whole, len(whole) - 1)]
             if not IS_SLOW:
-                broken += [whole[:len(whole) // 2]]
+                broken += [b"", whole + b"x", whole[:len(whole) // 2]]
             for content in broken:
                 self.break_and_draw(scene, fresh, table, content)
             self.assertEqual(table.read_bytes(), whole)
