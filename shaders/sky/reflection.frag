@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 // Terrain that open water mirrors, for every second pixel: rays of a few facets are followed in the
 // picture, from the water to the pixel whose ground hides them: docs/physics.md, *The sea*.
-// validate: FACETS
-// validate:
 
 #include "shared/fresnel.glsl"
 #include "sky/ray.glsl"
@@ -14,10 +12,8 @@ uniform sampler2D u_radiance; // what is drawn but for open water: of it only th
 uniform sampler2D u_near;     // nearest land in squares of 1, 4, 16 and 64 pixels, beside another
 uniform sampler2D u_land;     // of sky/reflection_land.frag
 uniform vec2 u_rectangle;     // pixels of one of its texels
-uniform vec4 u_sea;           // as in sky/sea.glsl
-#ifdef FACETS
-uniform sampler2D u_facets; // as in sky/sea.glsl
-#endif
+uniform vec3 u_sea;           // as in sky/sea.glsl
+uniform sampler2D u_facets;   // as in sky/sea.glsl
 
 // Radiance less that of the air before the water, times the part of the mirrored light that comes
 // from terrain; that part, or below 0 where there is no water.
@@ -149,13 +145,9 @@ Mirrored reflection(ivec2 pixel, ivec2 size)
     vec3 water = texelFetch(u_position, pixel, 0).xyz;
     vec3 direction = normalize(water);
     vec3 up = normalize(u_eye_up * u_eye.x + water);
-    vec3 normal = up;
-    float mss = u_sea.x;
-#ifdef FACETS
     vec4 waves = texelFetch(u_facets, pixel, 0);
-    normal = normalize(waves.xyz);
-    mss = waves.w;
-#endif
+    vec3 normal = normalize(waves.xyz);
+    float mss = waves.w;
     vec3 air = texelFetch(u_radiance, pixel, 0).rgb;
     vec3 toward = up * dot(direction, up) - direction;
     toward /= max(length(toward), 1.0e-6);

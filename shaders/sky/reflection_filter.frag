@@ -2,16 +2,11 @@
 // SPDX-License-Identifier: MIT
 // Mirrored terrain, where facets spread the image over pixels: the mean of as many texels as have
 // followed different facets (reflection.frag), of those that show water.
-// validate: FACETS
-// validate:
 
 uniform sampler2D u_reflection; // of sky/reflection.frag
 uniform sampler2D u_weight;
-uniform vec4 u_sea;  // as in sky/sea.glsl
-uniform vec3 u_disc; // as in sky/ray.glsl
-#ifdef FACETS
+uniform vec3 u_disc;        // as in sky/ray.glsl
 uniform sampler2D u_facets; // as in sky/sea.glsl
-#endif
 
 layout(location = 0) out vec4 out_reflection; // as there
 
@@ -19,10 +14,7 @@ void main()
 {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(u_reflection, 0) - 1;
-    float mss = u_sea.x;
-#ifdef FACETS
-    mss = texelFetch(u_facets, min(2 * texel, textureSize(u_facets, 0) - 1), 0).w;
-#endif
+    float mss = texelFetch(u_facets, min(2 * texel, textureSize(u_facets, 0) - 1), 0).w;
     // Of the square's width of eight pixels.
     float spread = clamp(sqrt(mss) / (4.0 * u_disc.z) - 0.25, 0.0, 1.0);
     vec4 own = texelFetch(u_reflection, texel, 0);

@@ -14,14 +14,12 @@ uniform sampler3D u_sea_volume;
 // Cosine of refracted grazing rays, 1 over a step of cosines, 1 over the refractive index, 1 over
 // depths.
 uniform vec4 u_sea_volume_map;
-#ifdef FACETS
 uniform sampler2D u_facets; // of ocean/facets.h: normal of the waves that are resolved, foam; mean
                             // square slope of the rest
-uniform float u_disc_slope; // what the star's disc adds
-#endif
 uniform sampler2D u_reflection; // of terrain: see sky/reflection.frag
 uniform vec2 u_reflected;       // 1: it covers the sky; its light is added
-uniform vec4 u_sea;        // mean square slope of all, refractive index, white share, its albedo
+uniform vec3 u_sea;        // mean square slope of all, refractive index; part of the former that is
+                           // the star's disc
 uniform float u_sea_texel; // 1 over views of u_water
 uniform float u_shadowed;  // 1: terrain's shadow is the light's
 
@@ -106,16 +104,11 @@ Sea find_sea(Ray ray, Ground ground)
     sea.altitude_m = ground.altitude_m;
     sea.sun_mu = dot(sea.up, u_sun);
     sea.height = visible_height(sea.sun_mu, u_disc.y);
-    sea.normal = sea.up;
-    float mss = u_sea.x;
-    sea.white = u_sea.zw;
-#ifdef FACETS
     vec4 waves = texelFetch(u_facets, ivec2(gl_FragCoord.xy), 0);
     float stretched = length(waves.xyz);
     sea.normal = waves.xyz / max(stretched, 1.0e-6);
     sea.white = vec2(max(stretched - 1.0, 0.0), SEA_FOAM_ALBEDO);
-    mss = max(waves.w + u_disc_slope, 1.0e-6);
-#endif
+    float mss = max(waves.w + u_sea.z, 1.0e-6);
     sea.level = clamp(float(SEA_LEVELS - 1) + log2(mss / u_sea.x) * (1.0 / SEA_LEVEL_OCTAVES), 0.0,
                       float(SEA_LEVELS - 1));
     sea.view_mu = clamp(-dot(sea.normal, ray.direction), 0.0, 1.0);

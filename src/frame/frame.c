@@ -287,7 +287,6 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
         shading.sun_direction = moon.sight.direction;
     }
     const struct ground_extras extras = {.has_sky_view = sky->model->reads_sky_view,
-                                         .has_facets = sky->model->reads_facets,
                                          .time_s = shown->time_s};
     trl_result result = ground_draw(&frame->ground, &shading, &extras, &frame->clock);
     struct sky_view view = {.camera = camera,

@@ -353,13 +353,12 @@ static trl_result draw_sky_view(struct ground *ground, const struct camera *came
                : result;
 }
 
-// The models whose water has waves have them as they stand.
 static trl_result draw_sea_mesh(struct ground *ground, const struct camera *camera,
                                 const struct ground_extras *extras)
 {
     const struct sea_mesh_inputs inputs = {camera, extras->time_s, &ground->position};
     ground->sea_mesh.plan.is_seen = false;
-    return extras->has_facets ? sea_mesh_draw(&ground->sea_mesh, &inputs) : TRL_OK;
+    return sea_mesh_draw(&ground->sea_mesh, &inputs);
 }
 
 static trl_result draw_surface(struct ground *ground, const struct camera *camera)
@@ -422,7 +421,7 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
         frame_clock_part(clock, "surface");
         result = draw_surface(ground, camera);
     }
-    if (result == TRL_OK && ground->has_waves && extras->has_facets) {
+    if (result == TRL_OK && ground->has_waves) {
         frame_clock_part(clock, "waves");
         result = draw_facets(ground, camera, extras);
     }

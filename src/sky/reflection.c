@@ -41,17 +41,16 @@ void reflection_finish(struct reflection *reflection)
     *reflection = (struct reflection){0};
 }
 
-static trl_result fit_programs(struct reflection *r, struct gpu *gpu, bool has_facets)
+static trl_result fit_programs(struct reflection *r, struct gpu *gpu)
 {
-    if (r->follow.name && r->has_facets == has_facets) {
+    if (r->filter.name) {
         return TRL_OK;
     }
-    static const char *const surface[] = {"SURFACE"}, *const facets[] = {"FACETS"};
+    static const char *const surface[] = {"SURFACE"};
     struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
                                     .fragment = "sky/reflection_near.frag",
                                     .defines = surface};
-    finish_programs(r);
-    r->has_facets = has_facets;
+    finish_programs(r); // what an attempt that failed has left
     trl_result result = gpu_program_init(gpu, &desc, &r->from_nearest);
     desc.define_count = 1;
     if (result == TRL_OK) {
@@ -63,8 +62,6 @@ static trl_result fit_programs(struct reflection *r, struct gpu *gpu, bool has_f
         result = gpu_program_init(gpu, &desc, &r->land_of);
     }
     desc.fragment = "sky/reflection.frag";
-    desc.defines = facets;
-    desc.define_count = has_facets ? 1 : 0;
     if (result == TRL_OK) {
         result = gpu_program_init(gpu, &desc, &r->follow);
     }
@@ -206,7 +203,7 @@ static trl_result draw_land(struct reflection *r, const struct sky_view *view)
 }
 
 static trl_result draw_mirrored(struct reflection *r, const struct sky_pixels *pixels,
-                                const struct sky_view *view, const float sea[4])
+                                const struct sky_view *view, const float sea[3])
 {
     struct gpu_program *program = &r->follow;
     sky_pixels_set_view(pixels, program, view);
@@ -217,35 +214,30 @@ static trl_result draw_mirrored(struct reflection *r, const struct sky_pixels *p
     gpu_program_set_texture(program, "u_near", &r->near);
     gpu_program_set_texture(program, "u_land", &r->land);
     gpu_program_set_vec2(program, "u_rectangle", rectangle);
-    if (view->surface.facets) {
-        gpu_program_set_texture(program, "u_facets", view->surface.facets);
-    }
-    gpu_program_set_vec4(program, "u_sea", sea);
+    gpu_program_set_texture(program, "u_facets", view->surface.facets);
+    gpu_program_set_vec3(program, "u_sea", sea);
     const struct gpu_pass pass = {.target = &r->single_target};
     gpu_pass_begin(pixels->gpu, &pass);
     return gpu_draw_fullscreen(program, "mirrored terrain");
 }
 
 static trl_result draw_filtered(struct reflection *r, const struct sky_pixels *pixels,
-                                const struct sky_view *view, const float sea[4])
+                                const struct sky_view *view)
 {
     struct gpu_program *program = &r->filter;
     sky_pixels_set_view(pixels, program, view);
     gpu_program_set_texture(program, "u_reflection", &r->single);
     gpu_program_set_texture(program, "u_weight", &r->weight);
-    if (view->surface.facets) {
-        gpu_program_set_texture(program, "u_facets", view->surface.facets);
-    }
-    gpu_program_set_vec4(program, "u_sea", sea);
+    gpu_program_set_texture(program, "u_facets", view->surface.facets);
     const struct gpu_pass pass = {.target = &r->target};
     gpu_pass_begin(pixels->gpu, &pass);
     return gpu_draw_fullscreen(program, "mirrored terrain by all facets");
 }
 
 trl_result reflection_draw(struct reflection *reflection, const struct sky_pixels *pixels,
-                           const struct sky_view *view, const float sea[4])
+                           const struct sky_view *view, const float sea[3])
 {
-    trl_result result = fit_programs(reflection, pixels->gpu, view->surface.facets);
+    trl_result result = fit_programs(reflection, pixels->gpu);
     if (result == TRL_OK) {
         result = fit_targets(reflection, pixels->gpu, view->target);
     }
@@ -258,5 +250,5 @@ trl_result reflection_draw(struct reflection *reflection, const struct sky_pixel
     if (result == TRL_OK) {
         result = draw_mirrored(reflection, pixels, view, sea);
     }
-    return result == TRL_OK ? draw_filtered(reflection, pixels, view, sea) : result;
+    return result == TRL_OK ? draw_filtered(reflection, pixels, view) : result;
 }

@@ -16,7 +16,6 @@
 
 struct reflection {
     uint32_t width, height; // of the picture; 0: nothing is made
-    bool has_facets;        // what the last program reads
     struct gpu_program from_surface, from_nearest, land_of, follow, filter;
     // Nearest land in squares of 4 pixels; in those of 1, 4, 16 and 64; radiance of land in
     // rectangles; what is mirrored by single facets, and how much those count; by all.
@@ -29,6 +28,6 @@ void reflection_finish(struct reflection *reflection);
 // Draws it, and makes before what is not there yet. `sea` is the uniform u_sea of sky/sea.glsl.
 TRL_MUST_USE trl_result reflection_draw(struct reflection *reflection,
                                         const struct sky_pixels *pixels,
-                                        const struct sky_view *view, const float sea[4]);
+                                        const struct sky_view *view, const float sea[3]);
 
 #endif // SKY_REFLECTION_H

@@ -71,13 +71,12 @@ static bool has_reflection(const struct sky_view *view)
     return view->highest_m > 0.1;
 }
 
-static void find_surface(const struct sea_water *water, float surface[4])
+static void find_surface(const struct sea_water *water, float surface[3])
 {
     const struct sky_sea *s = water->sea;
     surface[0] = (float)fmax(s->mean_square_slope + water->disc_slope, 1e-6);
     surface[1] = (float)s->index;
-    surface[2] = (float)s->white_share;
-    surface[3] = (float)s->white_albedo;
+    surface[2] = (float)water->disc_slope;
 }
 
 trl_result sea_water_reflect(struct sea_water *water, const struct sky_pixels *pixels,
@@ -86,7 +85,7 @@ trl_result sea_water_reflect(struct sea_water *water, const struct sky_pixels *p
     if (!has_reflection(view)) {
         return TRL_OK;
     }
-    float surface[4];
+    float surface[3];
     find_surface(water, surface);
     gpu_condition_begin(view->surface.has_water);
     const trl_result result = reflection_draw(&water->reflection, pixels, view, surface);
@@ -97,7 +96,7 @@ trl_result sea_water_reflect(struct sea_water *water, const struct sky_pixels *p
 void sea_water_set(const struct sea_water *water, const struct sky_view *view,
                    struct gpu_program *program)
 {
-    float surface[4];
+    float surface[3];
     find_surface(water, surface);
     const float critical = (float)water->sea->volume->critical;
     const float volume[4] = {critical, (float)(SKY_SEA_ANGLES - 1) / (1 - critical),
@@ -107,11 +106,8 @@ void sea_water_set(const struct sea_water *water, const struct sky_view *view,
     gpu_program_set_vec4(program, "u_sea_volume_map", volume);
     gpu_program_set_float(program, "u_shadowed", view->is_added == view->moon.is_main ? 1 : 0);
     gpu_program_set_float(program, "u_sea_texel", 1.0f / VIEWS);
-    if (view->surface.facets) {
-        gpu_program_set_texture(program, "u_facets", view->surface.facets);
-        gpu_program_set_float(program, "u_disc_slope", (float)water->disc_slope);
-    }
-    gpu_program_set_vec4(program, "u_sea", surface);
+    gpu_program_set_texture(program, "u_facets", view->surface.facets);
+    gpu_program_set_vec3(program, "u_sea", surface);
     // Of the light that is added later only the sky's is left out: terrain is mirrored once.
     const bool is_mirrored = has_reflection(view) && water->reflection.texture.name;
     const float share[2] = {is_mirrored ? 1 : 0, is_mirrored && !view->is_added ? 1 : 0};

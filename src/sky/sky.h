@@ -115,7 +115,6 @@ struct sky_model {
     struct sky_air (*get_air)(const void *self, const struct sky_view *view);
     // What it looks at in the surface; what no model looks at need not be drawn.
     bool reads_sky_view; // alpha of region, and of lights where there is no water
-    bool reads_facets;
 };
 
 extern const struct sky_model sky_spectral; // spectral.c

@@ -401,5 +401,4 @@ const struct sky_model sky_spectral = {.create = spectral_create,
                                        .is_settled = spectral_is_settled,
                                        .find_moon = spectral_find_moon,
                                        .get_air = spectral_get_air,
-                                       .reads_sky_view = true,
-                                       .reads_facets = true};
+                                       .reads_sky_view = true};

@@ -46,16 +46,13 @@ static trl_result make_mirror(struct spectral_sea *sea, const struct atmosphere 
 }
 
 static trl_result make_program(struct spectral_sea *sea, const struct atmosphere *a,
-                               bool has_facets, unsigned shades)
+                               unsigned shades)
 {
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", a->peaked.count);
     // What is added leaves the picture's alpha, as moonlight does.
-    const char *defines[6] = {peaked, "SURFACE", "MOON"};
+    const char *defines[5] = {peaked, "SURFACE", "MOON"};
     size_t count = 3;
-    if (has_facets) {
-        defines[count++] = "FACETS";
-    }
     if (shades & SEA_ECLIPSED) {
         defines[count++] = "ECLIPSE";
     }
@@ -84,7 +81,7 @@ trl_result spectral_sea_prepare(struct spectral_sea *sea, const struct spectral_
         result = make_mirror(sea, maps->atmosphere);
     }
     return result == TRL_OK && !sea->has_program[shades]
-               ? make_program(sea, maps->atmosphere, view->surface.facets, shades)
+               ? make_program(sea, maps->atmosphere, shades)
                : result;
 }
 

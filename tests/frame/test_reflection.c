@@ -11,6 +11,7 @@
 // way falls by m meets the water at 10 m / m, and its mirrored ray the wall at 100 m * m - 10 m.
 enum { SIZE = 64, HALF = SIZE / 2 };
 static const double EYE_M = 10, WALL_M = 100, HIGH_M = 20, TAN_HALF = 0.5;
+static const double RADIUS_M = 6371000;
 static const float AIR = 1, WALL = 5, SKY = 100;
 
 static double slope_at(uint32_t row, uint32_t rows)
@@ -51,6 +52,20 @@ static void fill_surface(float *position, float *albedo)
     }
 }
 
+// Level water, as rough as that.
+static void fill_facets(const float *position, float mean_square_slope, float *facets)
+{
+    for (size_t i = 0; i < 4 * SIZE * SIZE; i += 4) {
+        const struct vec3 at = {RADIUS_M + EYE_M + (double)position[i], (double)position[i + 1],
+                                (double)position[i + 2]};
+        const struct vec3 up = vec3_normalize(at);
+        facets[i] = (float)up.x;
+        facets[i + 1] = (float)up.y;
+        facets[i + 2] = (float)up.z;
+        facets[i + 3] = mean_square_slope;
+    }
+}
+
 static struct gpu_texture make_texture(struct fixture *f, const float *texels)
 {
     struct gpu_texture_desc desc = gpu_texture_desc_default();
@@ -66,28 +81,32 @@ static struct gpu_texture make_texture(struct fixture *f, const float *texels)
 
 static void draw(struct fixture *f, float mean_square_slope, float texels[4 * HALF * HALF])
 {
-    static float position_texels[4 * SIZE * SIZE], albedo_texels[4 * SIZE * SIZE];
+    static float position_texels[4 * SIZE * SIZE], albedo_texels[4 * SIZE * SIZE],
+        facet_texels[4 * SIZE * SIZE];
     fill_surface(position_texels, albedo_texels);
+    fill_facets(position_texels, mean_square_slope, facet_texels);
     struct gpu_texture position = make_texture(f, position_texels);
     struct gpu_texture albedo = make_texture(f, albedo_texels);
+    struct gpu_texture facets = make_texture(f, facet_texels);
     struct gpu_texture radiance = fixture_paint(f, SIZE, SIZE, paint_radiance, NULL);
     const struct gpu_target_desc desc = {
         .label = "picture", .color_count = 1, .colors[0].texture = &radiance};
     struct gpu_target target;
     assert_int_equal(gpu_target_init(f->gpu, &desc, &target), TRL_OK);
     const struct sky_pixels pixels = {
-        .gpu = f->gpu, .ground_radius_m = 6371000, .top_radius_m = 6471000};
-    const struct camera camera = {.position_m = {6371000 + EYE_M, 0, 0},
+        .gpu = f->gpu, .ground_radius_m = RADIUS_M, .top_radius_m = RADIUS_M + 1e5};
+    const struct camera camera = {.position_m = {RADIUS_M + EYE_M, 0, 0},
                                   .forward = {0, 0, 1},
                                   .right = {0, 1, 0},
                                   .up = {1, 0, 0},
                                   .sun_direction = {1, 0, 0},
                                   .tan_half_fov_x = TAN_HALF,
                                   .tan_half_fov_y = TAN_HALF};
-    const struct sky_view view = {.camera = &camera,
-                                  .surface = {.position = &position, .albedo = &albedo},
-                                  .target = &target};
-    const float sea[4] = {mean_square_slope, 1.34f, 0, 0};
+    const struct sky_view view = {
+        .camera = &camera,
+        .surface = {.position = &position, .albedo = &albedo, .facets = &facets},
+        .target = &target};
+    const float sea[3] = {mean_square_slope, 1.34f, 0};
     struct reflection reflection = {0};
     assert_int_equal(reflection_draw(&reflection, &pixels, &view, sea), TRL_OK);
     const struct gpu_region region = gpu_texture_region(&reflection.texture, 0);
@@ -95,6 +114,7 @@ static void draw(struct fixture *f, float mean_square_slope, float texels[4 * HA
     reflection_finish(&reflection);
     gpu_target_finish(&target);
     gpu_texture_finish(&radiance);
+    gpu_texture_finish(&facets);
     gpu_texture_finish(&albedo);
     gpu_texture_finish(&position);
 }

@@ -146,11 +146,62 @@ static void shallow_water_shows_its_bed(void **state)
     }
 }
 
+// From 30 m, toward the star: how much pixels differ, over their mean.
+static double find_contrast(const struct setup *s, trl_sky_model model, double *mean)
+{
+    char text[1024];
+    const int length =
+        snprintf(text, sizeof text, scene_format,
+                 ", \"ocean\": {\"waves\": {\"wind_m_s\": 7, \"whitecaps\": 0}, " BLACK_WATER "}");
+    trl_scene *scene = NULL;
+    trl_renderer *renderer = NULL;
+    assert_int_equal(trl_scene_parse(s->f->ctx, text, (size_t)length, "sea", s->folder, &scene),
+                     TRL_OK);
+    trl_renderer_desc desc = trl_renderer_desc_default();
+    desc.scene = scene;
+    desc.sky_model = model;
+    assert_int_equal(trl_renderer_create(s->f->ctx, &desc, &renderer), TRL_OK);
+    trl_view view = trl_view_default();
+    view.longitude_rad = 1;
+    view.altitude_m = 30;
+    view.pitch_rad = -PI / 4;
+    view.vertical_fov_rad = 0.5;
+    view.sun_mode = TRL_SUN_LOCAL;
+    view.sun_latitude_or_elevation_rad = PI / 4;
+    view.sun_longitude_or_azimuth_rad = view.heading_rad;
+    static float radiance[4 * SIZE * SIZE];
+    assert_int_equal(trl_renderer_draw(renderer, &view, SIZE, SIZE, 0), TRL_OK);
+    assert_int_equal(trl_renderer_read_radiance(renderer, radiance), TRL_OK);
+    double sum = 0, squares = 0;
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        const double green = (double)radiance[4 * i + 1];
+        sum += green / (SIZE * SIZE);
+        squares += green * green / (SIZE * SIZE);
+    }
+    trl_renderer_destroy(&renderer);
+    trl_scene_destroy(&scene);
+    *mean = sum;
+    return sqrt(fmax(squares / (sum * sum) - 1, 0));
+}
+
+static void every_model_has_the_same_waves(void **state)
+{
+    double means[3];
+    for (int model = 0; model < 3; model++) {
+        const double contrast = find_contrast(*state, (trl_sky_model)model, &means[model]);
+        printf("model %d: contrast %.3f, mean %g\n", model, contrast, means[model]);
+        // Of a mean surface the glint falls by a third to the corners, a contrast of 0.1.
+        assert_true(contrast > 0.5);
+        assert_true(fabs(means[model] / means[0] - 1) < 0.05);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_glint_is_that_of_the_slopes),
         cmocka_unit_test(shallow_water_shows_its_bed),
+        cmocka_unit_test(every_model_has_the_same_waves),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

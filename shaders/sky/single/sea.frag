@@ -42,7 +42,7 @@ void main()
     vec4 sent = sea_radiance(sea, star_light(p), vec4(0.0), vec4(0.0));
     Air air = air_before(ray, ground.distance_m, ground.altitude_m);
     vec3 shown = added_colour(mirrored * air.transmittance) *
-                 (sea.seen * (1.0 - u_sea.z) * (1.0 - sea.terrain.a));
+                 (sea.seen * (1.0 - sea.white.x) * (1.0 - sea.terrain.a));
     vec4 light = join_light(sent * air.transmittance, shown);
     out_radiance = vec4((light.rgb + sea_mirrored_terrain(sea)) * ground.water, 0.0);
 }

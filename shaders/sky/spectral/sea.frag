@@ -5,7 +5,6 @@
 // white caps. What the air itself adds is drawn there.
 // validate: PEAKED_COUNT 1; SURFACE; MOON
 // validate: PEAKED_COUNT 3; SURFACE; MOON
-// validate: PEAKED_COUNT 1; SURFACE; MOON; FACETS
 // validate: PEAKED_COUNT 1; SURFACE; MOON; ECLIPSE
 // validate: PEAKED_COUNT 1; SURFACE; MOON; ECLIPSE; CLOUDS
 
