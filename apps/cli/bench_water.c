@@ -24,8 +24,10 @@ trl_result bench_run_water_tables(const struct bench_job *job)
             {name, "table", "s", stats.make_s},
             {name, "size", "MB", (double)stats.bytes / 1e6},
             {name, "mean error", "%", 100 * stats.mean_error},
-            {name, "largest error", "%", 100 * stats.largest_error}};
-        for (int k = 0; k < 4 && result == TRL_OK; k++) {
+            {name, "largest error", "%", 100 * stats.largest_error},
+            {name, "table under water", "s", stats.under_make_s},
+            {name, "size of that", "MB", (double)stats.under_bytes / 1e6}};
+        for (int k = 0; k < 6 && result == TRL_OK; k++) {
             result = bench_add(job->table, samples[k]);
         }
     }

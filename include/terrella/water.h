@@ -86,9 +86,11 @@ typedef struct trl_water_table_stats {
     double make_s;
     size_t bytes;
     double mean_error, largest_error; ///< relative
+    double under_make_s;              ///< of the light around eyes under water, over a bed in 10 m
+    size_t under_bytes;
 } trl_water_table_stats;
 
-/// Makes the table anew. Uses every core.
+/// Makes the tables anew. Uses every core.
 /// @return TRL_OK; TRL_ERROR_INVALID (an argument; a scene without ocean); TRL_ERROR_MEMORY
 TRL_API TRL_MUST_USE trl_result trl_water_table_measure(trl_context *ctx, const trl_scene *scene,
                                                         trl_water_table_stats *out);

@@ -5,7 +5,7 @@
 #include "api/check.h"
 #include "api/water.h"
 #include "api/wavelengths.h"
-#include "ocean/volume.h"
+#include "ocean/volume_under.h"
 #include "reference/water.h"
 #include "scene/scene.h"
 
@@ -236,5 +236,13 @@ trl_result trl_water_table_measure(trl_context *ctx, const trl_scene *scene,
         }
     }
     volume_table_destroy(ctx, &table);
+    struct volume_under *under = NULL;
+    const double under_start = seconds();
+    if (result == TRL_OK) {
+        result = volume_under_make(ctx, &scene->ocean, nm, VOLUME_WAVELENGTHS, 10, &under);
+        out->under_make_s = seconds() - under_start;
+        out->under_bytes = sizeof *under;
+    }
+    volume_under_destroy(ctx, &under);
     return result;
 }

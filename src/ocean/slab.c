@@ -31,7 +31,7 @@ void slab_grid_init(double critical, const double *others, int other_count, stru
         out->mu[N + k] = fmax(others[k], 1e-4);
         out->weight[N + k] = 0;
     }
-    out->count = N + other_count;
+    out->count = out->outputs = N + other_count;
     for (int k = 0; k < out->count; k++) {
         harmonic_values(SLAB_MOMENTS - 1, out->mu[k], out->harmonic[k]);
     }
@@ -78,6 +78,9 @@ static void fill_thin(const struct slab_order *order, double depth, struct slab 
     const struct slab_grid *grid = order->grid;
     const struct slab_medium *medium = order->medium;
     for (int i = 0; i < grid->count; i++) {
+        out->direct[i] = exp(-depth / grid->mu[i]);
+    }
+    for (int i = 0; i < grid->outputs; i++) {
         const double scattered = medium->albedo * depth / grid->mu[i];
         for (int j = 0; j < grid->count; j++) {
             double same = 0, turned = 0; // kernels of the order m: light on its way, and back
@@ -91,7 +94,6 @@ static void fill_thin(const struct slab_order *order, double depth, struct slab 
             out->passed[i * STRIDE + j] = scattered * same;
             out->reflected[i * STRIDE + j] = scattered * turned;
         }
-        out->direct[i] = exp(-depth / grid->mu[i]);
     }
 }
 
@@ -99,8 +101,8 @@ static void fill_thin(const struct slab_order *order, double depth, struct slab 
 static void add_product(const struct slab_order *order, const double *left, const double *right,
                         double *out)
 {
-    const int count = order->grid->count;
-    for (int i = 0; i < count; i++) {
+    const int count = order->grid->count, outputs = order->grid->outputs;
+    for (int i = 0; i < outputs; i++) {
         for (int k = 0; k < N; k++) {
             const double factor = left[i * STRIDE + k] * slab_weight(order, k);
             for (int j = 0; j < count; j++) {
@@ -119,11 +121,11 @@ struct between {
 static void meet(const struct slab_order *order, const struct slab *upper, const double *reflected,
                  struct between *out)
 {
-    const int count = order->grid->count;
+    const int count = order->grid->count, outputs = order->grid->outputs;
     double again[SLAB_MAX * SLAB_MAX] = {0};
     add_product(order, upper->reflected, reflected, again);
     double matrix[N * N];
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < outputs; i++) {
         for (int j = 0; j < count; j++) {
             const double from = again[i * STRIDE + j];
             out->down[i * STRIDE + j] = upper->passed[i * STRIDE + j] + from * upper->direct[j];
@@ -134,7 +136,7 @@ static void meet(const struct slab_order *order, const struct slab *upper, const
     }
     slab_solve(matrix, out->down, count);
     // The other directions follow from the nodes.
-    for (int i = N; i < count; i++) {
+    for (int i = N; i < outputs; i++) {
         for (int k = 0; k < N; k++) {
             const double factor = again[i * STRIDE + k] * slab_weight(order, k);
             for (int j = 0; j < count; j++) {
@@ -142,7 +144,7 @@ static void meet(const struct slab_order *order, const struct slab *upper, const
             }
         }
     }
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < outputs; i++) {
         for (int j = 0; j < count; j++) {
             out->up[i * STRIDE + j] = reflected[i * STRIDE + j] * upper->direct[j];
         }
@@ -153,8 +155,8 @@ static void meet(const struct slab_order *order, const struct slab *upper, const
 static void leave_above(const struct slab_order *order, const struct slab *upper,
                         const struct between *between, double *reflected)
 {
-    const int count = order->grid->count;
-    for (int i = 0; i < count; i++) {
+    const int count = order->grid->count, outputs = order->grid->outputs;
+    for (int i = 0; i < outputs; i++) {
         for (int j = 0; j < count; j++) {
             reflected[i * STRIDE + j] =
                 upper->reflected[i * STRIDE + j] + upper->direct[i] * between->up[i * STRIDE + j];
@@ -166,15 +168,17 @@ static void leave_above(const struct slab_order *order, const struct slab *upper
 void slab_add(const struct slab_order *order, const struct slab *upper, const struct slab *lower,
               struct slab *out)
 {
-    const int count = order->grid->count;
+    const int count = order->grid->count, outputs = order->grid->outputs;
     struct between between;
     meet(order, upper, lower->reflected, &between);
     leave_above(order, upper, &between, out->reflected);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < outputs; i++) {
         for (int j = 0; j < count; j++) {
             out->passed[i * STRIDE + j] = lower->direct[i] * between.down[i * STRIDE + j] +
                                           lower->passed[i * STRIDE + j] * upper->direct[j];
         }
+    }
+    for (int i = 0; i < count; i++) {
         out->direct[i] = upper->direct[i] * lower->direct[i];
     }
     add_product(order, lower->passed, between.down, out->passed);
@@ -185,19 +189,25 @@ void slab_double(const struct slab_order *order, const struct slab *half, struct
     slab_add(order, half, half, out);
 }
 
+void slab_add_below(const struct slab_order *order, const struct slab *layer, const double *below,
+                    double *reflected)
+{
+    struct between between;
+    meet(order, layer, below, &between);
+    leave_above(order, layer, &between, reflected);
+}
+
 void slab_add_bed(const struct slab_order *order, const struct slab *layer, double albedo,
                   double *reflected)
 {
     const struct slab_grid *grid = order->grid;
     double bed[SLAB_MAX * SLAB_MAX] = {0};
-    for (int i = 0; i < grid->count && order->m == 0; i++) {
+    for (int i = 0; i < grid->outputs && order->m == 0; i++) {
         for (int j = 0; j < grid->count; j++) {
             bed[i * STRIDE + j] = albedo / M_PI * grid->mu[j];
         }
     }
-    struct between between;
-    meet(order, layer, bed, &between);
-    leave_above(order, layer, &between, reflected);
+    slab_add_below(order, layer, bed, reflected);
 }
 
 void slab_make(const struct slab_order *order, double depth_m, struct slab *out)

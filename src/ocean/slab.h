@@ -22,7 +22,8 @@ enum {
 };
 
 struct slab_grid {
-    int count; // of all directions
+    int count;   // of all directions
+    int outputs; // of those in which light leaves, from the first on: at least the nodes
     double mu[SLAB_MAX];
     double weight[SLAB_MAX]; // of the integral over the cosine; 0 beyond SLAB_NODES
     // Spherical harmonics of quadrature.h: (l, m) of each direction.
@@ -60,6 +61,9 @@ void slab_double(const struct slab_order *order, const struct slab *half, struct
 // A layer upon a bed that reflects as the Lambertian `albedo`: only what comes back.
 void slab_add_bed(const struct slab_order *order, const struct slab *layer, double albedo,
                   double *reflected);
+// A layer upon what reflects so: only what comes back. `reflected` is another one than `below`.
+void slab_add_below(const struct slab_order *order, const struct slab *layer, const double *below,
+                    double *reflected);
 // Homogeneous layers of different depths, one upon the other.
 void slab_add(const struct slab_order *order, const struct slab *upper, const struct slab *lower,
               struct slab *out);

@@ -135,13 +135,14 @@ static double from_field(const struct query *q, const struct field *field)
     return q->view->view_mu < 0 ? field->up[VIEW] : field->down[VIEW];
 }
 
-// The depth integral of light scattered once, per scattering coefficient and extinction.
-static double single_path(const struct query *q)
+// The depth integral of light scattered once, per scattering coefficient and extinction, seen from
+// a depth.
+static double single_path(const struct query *q, double eye_depth_m, bool goes_up)
 {
     const double sun = q->grid.mu[SUN], view = q->grid.mu[VIEW];
-    const double eye = q->medium.extinction_per_m * q->view->eye_depth_m;
+    const double eye = q->medium.extinction_per_m * eye_depth_m;
     const double below = q->medium.extinction_per_m * q->column.depth_m - eye;
-    if (q->view->view_mu < 0) {
+    if (goes_up) {
         return sun / (sun + view) * exp(-eye / sun) * -expm1(-below * (1 / sun + 1 / view));
     }
     const double difference = eye * (1 / sun - 1 / view);
@@ -150,13 +151,12 @@ static double single_path(const struct query *q)
 }
 
 // What light scattered once has more than the orders have of it (Nakajima and Tanaka 1988, J.
-// Quant.
-// Spectrosc. Radiat. Transfer 40).
-static double single_correction(const struct query *q)
+// Quant. Spectrosc. Radiat. Transfer 40), per that integral.
+static double single_difference(const struct query *q, bool goes_up)
 {
     const double sun = q->grid.mu[SUN], view = q->grid.mu[VIEW];
     // The star's light and that to the eye go against the directions to the star and of sight.
-    const double up = q->view->view_mu < 0 ? 1 : -1;
+    const double up = goes_up ? 1 : -1;
     const double cosine =
         -up * sun * view + sqrt((1 - sun * sun) * (1 - view * view)) * cos(q->view->azimuth_rad);
     double cut = 0;
@@ -164,14 +164,27 @@ static double single_correction(const struct query *q)
         double order = 0;
         for (int l = m; l < SLAB_MOMENTS; l++) {
             const int lm = harmonic_index(l, m);
-            const double sign = up > 0 && (l + m) % 2 ? -1 : 1;
+            const double sign = goes_up && (l + m) % 2 ? -1 : 1;
             order +=
                 sign * q->medium.moment[l] * q->grid.harmonic[SUN][lm] * q->grid.harmonic[VIEW][lm];
         }
         cut += order * cos(m * q->view->azimuth_rad);
     }
     const double exact = water_phase_value(&q->phase, cosine) / (1 - q->medium.peak);
-    return q->medium.albedo * (exact - cut) * single_path(q);
+    return q->medium.albedo * (exact - cut);
+}
+
+// Of the light on its straight way, and of that which the surface sends down again.
+static double single_correction(const struct query *q)
+{
+    const double eye_m = q->view->eye_depth_m;
+    if (q->view->view_mu < 0) {
+        return single_difference(q, true) * single_path(q, eye_m, true);
+    }
+    const double mirrored =
+        q->inner[VIEW] * exp(-q->medium.extinction_per_m * eye_m / q->grid.mu[VIEW]);
+    return single_difference(q, false) * single_path(q, eye_m, false) +
+           mirrored * single_difference(q, true) * single_path(q, 0, true);
 }
 
 static void prepare(const struct volume_column *column, const struct volume_view *view,

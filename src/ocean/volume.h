@@ -68,10 +68,17 @@ TRL_MUST_USE trl_result volume_table_get(const trl_context *ctx, const struct oc
                                          const double *nm, int count, struct volume_table **out);
 void volume_table_destroy(const trl_context *ctx, struct volume_table **table);
 
-// Whether all after `column`, which tables are known by, could be read from disk; else it stays.
-// Storing: failure is a warning.
-bool volume_cache_load(const trl_context *ctx, struct volume_table *table);
-void volume_cache_store(const trl_context *ctx, struct volume_table *table);
+// A table on disk. What it follows from comes first in it, and was zeroed as a whole, padding
+// included.
+struct volume_kept {
+    const char *name; // of its files: each kind has eight
+    void *table;
+    size_t input_bytes, bytes;
+};
+// Whether all after the inputs could be read; else it stays. Storing: failure is a warning.
+bool volume_cache_load(const trl_context *ctx, const struct volume_kept *kept);
+void volume_cache_store(const trl_context *ctx, const struct volume_kept *kept);
+struct volume_kept volume_table_kept(struct volume_table *table);
 
 // What leaves the water of that depth, for each wavelength: as volume_radiance.
 void volume_table_at(const struct volume_table *table, double depth_m,

@@ -9,47 +9,44 @@
 #include <stdio.h>
 
 // To be raised when the solver gives other values.
-enum { FORMAT_VERSION = 2 };
+enum { FORMAT_VERSION = 4 };
 
-enum { PLACES = 8 };
-
-// What a table follows from comes first in it; it was zeroed as a whole, padding included.
-enum { INPUT_BYTES = offsetof(struct volume_table, star) };
+enum { PLACES = 8, MAX_INPUT_BYTES = 4096 };
 
 struct entry {
     char name[32];
     struct {
         char magic[8];
         uint64_t version;
-        char inputs[INPUT_BYTES];
+        char inputs[MAX_INPUT_BYTES];
     } key;
     struct cache_file file;
 };
 
-static void describe(struct volume_table *table, struct entry *out)
+static void describe(const struct volume_kept *kept, struct entry *out)
 {
     *out = (struct entry){.key = {"TRLWATE", FORMAT_VERSION, {0}}};
-    memcpy(out->key.inputs, table, INPUT_BYTES);
-    const uint64_t hash = hash_bytes(HASH_BEGIN, table, INPUT_BYTES);
-    snprintf(out->name, sizeof out->name, "water-%u.bin", (unsigned)(hash % PLACES));
+    memcpy(out->key.inputs, kept->table, kept->input_bytes);
+    const uint64_t hash = hash_bytes(HASH_BEGIN, kept->table, kept->input_bytes);
+    snprintf(out->name, sizeof out->name, "%s-%u.bin", kept->name, (unsigned)(hash % PLACES));
     out->file = (struct cache_file){.name = out->name,
                                     .what = "light in the water",
                                     .key = &out->key,
                                     .key_bytes = sizeof out->key,
-                                    .data = (char *)table + INPUT_BYTES,
-                                    .data_bytes = sizeof *table - INPUT_BYTES};
+                                    .data = (char *)kept->table + kept->input_bytes,
+                                    .data_bytes = kept->bytes - kept->input_bytes};
 }
 
-bool volume_cache_load(const trl_context *ctx, struct volume_table *table)
+bool volume_cache_load(const trl_context *ctx, const struct volume_kept *kept)
 {
     struct entry entry;
-    describe(table, &entry);
+    describe(kept, &entry);
     return cache_file_load(ctx, &entry.file);
 }
 
-void volume_cache_store(const trl_context *ctx, struct volume_table *table)
+void volume_cache_store(const trl_context *ctx, const struct volume_kept *kept)
 {
     struct entry entry;
-    describe(table, &entry);
+    describe(kept, &entry);
     cache_file_store(ctx, &entry.file);
 }

@@ -210,16 +210,22 @@ trl_result volume_table_make(const trl_context *ctx, const struct ocean_desc *oc
     return result;
 }
 
+struct volume_kept volume_table_kept(struct volume_table *table)
+{
+    return (struct volume_kept){"water", table, offsetof(struct volume_table, star), sizeof *table};
+}
+
 trl_result volume_table_get(const trl_context *ctx, const struct ocean_desc *ocean,
                             const double *nm, int count, struct volume_table **out)
 {
     *out = describe(ctx, ocean, nm, count);
-    if (*out && volume_cache_load(ctx, *out)) {
+    const struct volume_kept kept = volume_table_kept(*out);
+    if (*out && volume_cache_load(ctx, &kept)) {
         return TRL_OK;
     }
     const trl_result result = *out ? light_up(ctx, *out) : TRL_ERROR_MEMORY;
     if (result == TRL_OK) {
-        volume_cache_store(ctx, *out);
+        volume_cache_store(ctx, &kept);
     } else {
         volume_table_destroy(ctx, out);
     }

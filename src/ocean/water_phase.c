@@ -88,6 +88,12 @@ static double blunt_value(const struct water_phase *p, double angle)
     return value * exp(slope / 2 * (1 - part * part));
 }
 
+double water_phase_blunt(const struct water_phase *phase, double angle)
+{
+    return phase->clear_share * clear_value(cos(angle)) +
+           (1 - phase->clear_share) * blunt_value(phase, angle);
+}
+
 double water_phase_moments(const struct water_phase *phase, int count, double *moment)
 {
     enum { STEPS = 4000 };

@@ -21,6 +21,9 @@ struct water_phase water_phase_make(const struct water_optics *optics);
 
 double water_phase_value(const struct water_phase *phase, double cosine);
 
+// The same with the peak cut that water_phase_moments splits off: its integral is what is left.
+double water_phase_blunt(const struct water_phase *phase, double angle);
+
 // Splits off a peak of light that goes on as if not scattered, and returns its share. moment[l] =
 // integral of the rest, per its own share, times the Legendre polynomial P_l, l < count.
 double water_phase_moments(const struct water_phase *phase, int count, double *moment);

@@ -17,7 +17,7 @@
 #include "frame/daylight.h"
 #include "frame/sea.h"
 #include "ocean/sea.h"
-#include "ocean/volume.h"
+#include "ocean/volume_under.h"
 #include "reference/water.h"
 #include "shared/fresnel.glsl"
 #include "shared/sea.glsl"
@@ -235,6 +235,40 @@ static void the_table_says_the_same(void **state)
     }
 }
 
+// Every direction, near the surface, between, and near the bed; the eye between the table's depths.
+static void tables_for_eyes_under_water_say_the_same(void **state)
+{
+    static const double nm[] = {440, 560, 640};
+    static const double eyes_m[] = {0.01, 0.3, 1.1, 4.3, 9.6};
+    static const double views[] = {-0.98, -0.5, -0.1, 0.1, 0.5, 0.72, 0.95};
+    for (int k = 0; k < KINDS; k++) {
+        const struct ocean_desc ocean = kind(k);
+        struct volume_under *under = NULL;
+        assert_int_equal(volume_under_get(*state, &ocean, nm, 3, 10, &under), TRL_OK);
+        double worst = 0, mean = 0;
+        int count = 0;
+        for (int i = 0; i < 5 * 7 * 3; i++) {
+            const int wavelength = i % 3;
+            const struct volume_view view = {eyes_m[i / 21], i % 2 ? 0.9 : 0.4, views[i / 3 % 7],
+                                             i % 4 * 0.9};
+            const struct volume_light read = volume_under_at(under, wavelength, &view);
+            struct volume_column column = volume_column_make(&ocean, 10, nm[wavelength]);
+            column.index = under->index;
+            const struct volume_light light = solve(*state, &column, view);
+            const double star = fabs(read.star - light.star), sky = fabs(read.sky - light.sky);
+            // Under an even sky its window is 0.57; near the bed of murky water it is night.
+            assert_true(star < 0.03 * light.star + 0.002 && sky < 0.03 * light.sky + 0.002);
+            const double off = fmax(star / light.star, sky / light.sky);
+            worst = fmax(worst, off);
+            mean += off;
+            count++;
+        }
+        assert_true(mean / count < 0.03);
+        printf("water %d: mean %.2f %%, worst %.2f %%\n", k, 100 * mean / count, 100 * worst);
+        volume_under_destroy(*state, &under);
+    }
+}
+
 static void tables_come_back_from_the_cache(void **state)
 {
     (void)state;
@@ -251,10 +285,11 @@ static void tables_come_back_from_the_cache(void **state)
     assert_int_equal(volume_table_make(ctx, &ocean, nm, 2, &other), TRL_OK);
     assert_memory_equal(made, other, sizeof *made);
     memset(other->star, 0, sizeof other->star);
-    assert_true(volume_cache_load(ctx, other));
+    const struct volume_kept kept_file = volume_table_kept(other);
+    assert_true(volume_cache_load(ctx, &kept_file));
     assert_memory_equal(made, other, sizeof *made);
     other->column[1].bed_albedo += 1e-12; // other water
-    assert_false(volume_cache_load(ctx, other));
+    assert_false(volume_cache_load(ctx, &kept_file));
     assert_int_equal(volume_table_get(ctx, &ocean, nm, 2, &kept), TRL_OK);
     assert_memory_equal(made, kept, sizeof *made);
     volume_table_destroy(ctx, &made);
@@ -385,6 +420,7 @@ int main(void)
         cmocka_unit_test(depths_and_waters_agree_with_paths),
         cmocka_unit_test(eyes_under_water_agree_with_paths),
         cmocka_unit_test(the_table_says_the_same),
+        cmocka_unit_test(tables_for_eyes_under_water_say_the_same),
         cmocka_unit_test(tables_come_back_from_the_cache),
         cmocka_unit_test(water_has_the_colour_of_its_depth),
         cmocka_unit_test(pictures_have_the_colour_of_the_solution)};
