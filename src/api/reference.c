@@ -60,6 +60,8 @@ static trl_result place_camera(struct job *job)
     const struct camera_place place = {.radius_m = scene->medium.ground_radius_m,
                                        .ground_altitude_m = relief_altitude_m(
                                            &job->relief, view->latitude_rad, view->longitude_rad),
+                                       .water_depth_m = relief_water_depth_m(
+                                           &job->relief, view->latitude_rad, view->longitude_rad),
                                        .bodies = scene->bodies,
                                        .body_count = scene->body_count};
     const trl_result result = camera_check(job->ctx, view, &place);
@@ -77,7 +79,10 @@ static trl_result place_camera(struct job *job)
 static trl_result trace(const struct job *job)
 {
     const trl_reference_desc *desc = job->desc;
-    const struct reference_surface surface = relief_surface(&job->relief);
+    struct reference_surface surface = relief_surface(&job->relief);
+    if (!job->relief.is_bare) {
+        surface.under = relief_under(&job->relief, &desc->scene->ocean, job->camera.position_m);
+    }
     const struct reference_clouds clouds = cloud_field_traced(&job->field);
     const struct reference_scene scene = {.medium = &desc->scene->medium,
                                           .surface = job->relief.is_bare ? NULL : &surface,

@@ -6,6 +6,7 @@
 #include "frame/invention.h"
 #include "ocean/sea.h"
 #include "shared/blend.glsl"
+#include "terrain/look.h"
 #include "terrain/projective.h"
 
 #include <math.h>
@@ -462,6 +463,13 @@ struct sky_shadow ground_shadow(const struct ground *ground)
 double ground_altitude_m(const struct ground *ground, double latitude_rad, double longitude_rad)
 {
     return surface_altitude(&ground->surface, vec3_from_lat_lon(latitude_rad, longitude_rad));
+}
+
+double ground_water_depth_m(const struct ground *ground, double latitude_rad, double longitude_rad)
+{
+    return ground->is_bare ? 0
+                           : surface_water_depth_m(&ground->surface,
+                                                   vec3_from_lat_lon(latitude_rad, longitude_rad));
 }
 
 double ground_wave_m(const struct ground *ground, double latitude_rad, double longitude_rad,

@@ -113,6 +113,8 @@ struct sky_surface ground_surface(const struct ground *ground);
 struct sky_shadow ground_shadow(const struct ground *ground);
 
 double ground_altitude_m(const struct ground *ground, double latitude_rad, double longitude_rad);
+// As surface_water_depth_m.
+double ground_water_depth_m(const struct ground *ground, double latitude_rad, double longitude_rad);
 // Of the sea above its level, as a boat feels it; 0 without waves.
 double ground_wave_m(const struct ground *ground, double latitude_rad, double longitude_rad,
                      double time_s);

@@ -3,6 +3,7 @@
 #include "frame/relief.h"
 
 #include "frame/ground.h"
+#include "ocean/water_phase.h"
 #include "sky/sea_volume.h"
 #include "terrain/look.h"
 
@@ -74,6 +75,11 @@ double relief_altitude_m(const struct relief *relief, double latitude_rad, doubl
     return surface_altitude(&relief->surface, vec3_from_lat_lon(latitude_rad, longitude_rad));
 }
 
+double relief_water_depth_m(const struct relief *relief, double latitude_rad, double longitude_rad)
+{
+    return surface_water_depth_m(&relief->surface, vec3_from_lat_lon(latitude_rad, longitude_rad));
+}
+
 static double find_altitude(const void *user, struct vec3 direction)
 {
     const struct relief *relief = user;
@@ -121,6 +127,38 @@ static lanes4 find_volume(const void *user, double depth_code, const struct refe
         value[k] = fmax(sea_volume_value(relief->sea.volume, light.star, (*nm)[k]), 0);
     }
     return value;
+}
+
+static void find_optics(const void *user, double nm, struct reference_water_optics *out)
+{
+    const struct ocean_desc *ocean = user;
+    const struct water_optics optics = water_optics_at(&ocean->water, nm);
+    const struct water_phase phase = water_phase_make(&optics);
+    *out = (struct reference_water_optics){.absorption_per_m = optics.absorption_per_m,
+                                           .clear_per_m = optics.clear_per_m,
+                                           .particles_per_m = optics.particles_per_m,
+                                           .particle_index = phase.index,
+                                           .particle_slope = phase.slope,
+                                           .bed_albedo = spectrum_at(&ocean->bed.albedo, nm)};
+}
+
+struct reference_under relief_under(const struct relief *relief, const struct ocean_desc *ocean,
+                                    struct vec3 eye_m)
+{
+    const struct vec3 up = vec3_normalize(eye_m);
+    const double latitude_rad = asin(fmax(-1, fmin(1, up.z)));
+    const double longitude_rad = atan2(up.y, up.x);
+    const double level_m =
+        relief->surface.radius_m + relief_altitude_m(relief, latitude_rad, longitude_rad);
+    const double depth_m = relief_water_depth_m(relief, latitude_rad, longitude_rad);
+    const struct sky_sea *sea = &relief->sea.sea;
+    return (struct reference_under){.is_there = depth_m > 0 && vec3_length(eye_m) < level_m,
+                                    .level_radius_m = level_m,
+                                    .depth_m = depth_m,
+                                    .mean_square_slope = fmax(sea->mean_square_slope, 1e-6),
+                                    .index = sea->index,
+                                    .user = ocean,
+                                    .optics = find_optics};
 }
 
 struct reference_surface relief_surface(const struct relief *relief)

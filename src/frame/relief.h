@@ -25,7 +25,13 @@ TRL_MUST_USE trl_result relief_init_heights(const trl_context *ctx, const struct
                                             struct relief *out);
 void relief_finish(struct relief *relief);
 
+// As surface_water_depth_m.
+double relief_water_depth_m(const struct relief *relief, double latitude_rad, double longitude_rad);
 double relief_altitude_m(const struct relief *relief, double latitude_rad, double longitude_rad);
+
+// The water around an eye; of this ocean, which must outlive it.
+struct reference_under relief_under(const struct relief *relief, const struct ocean_desc *ocean,
+                                    struct vec3 eye_m);
 
 // Must not outlive the relief.
 struct reference_surface relief_surface(const struct relief *relief);

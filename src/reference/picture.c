@@ -16,6 +16,7 @@ struct studio {
     struct reference_world world;
     struct palette palette;
     struct reference_tracer tracers[PALETTE_GROUPS];
+    struct reference_under_tables *under[PALETTE_GROUPS]; // NULL: the eye is in the air
     struct reference_scratches scratches;
     uint64_t parts_done;   // groups of pixels, by all threads
     bool is_stopped;       // set by the calling thread, read by all
@@ -45,8 +46,25 @@ static void set_up_tracer(struct studio *studio, int group)
 
 static void studio_finish(struct studio *studio)
 {
+    for (int group = 0; group < PALETTE_GROUPS; ++group) {
+        reference_under_tables_destroy(studio->ctx, &studio->under[group]);
+    }
     reference_scratches_finish(studio->ctx, &studio->scratches);
     reference_world_finish(studio->ctx, &studio->world);
+}
+
+static trl_result make_under(struct studio *studio)
+{
+    const struct reference_surface *surface = studio->world.scene.surface;
+    trl_result result = TRL_OK;
+    for (int group = 0; group < PALETTE_GROUPS && surface && result == TRL_OK; ++group) {
+        if (surface->under.is_there) {
+            result = reference_under_tables_make(studio->ctx, &surface->under,
+                                                 &studio->tracers[group].nm, REFERENCE_LANES,
+                                                 &studio->under[group]);
+        }
+    }
+    return result;
 }
 
 static trl_result studio_init(const trl_context *ctx, const struct reference_scene *scene,
@@ -62,7 +80,10 @@ static trl_result studio_init(const trl_context *ctx, const struct reference_sce
     for (int group = 0; group < PALETTE_GROUPS; ++group) {
         set_up_tracer(studio, group);
     }
-    result = reference_scratches_init(ctx, &studio->world.air, &studio->scratches);
+    result = make_under(studio);
+    if (result == TRL_OK) {
+        result = reference_scratches_init(ctx, &studio->world.air, &studio->scratches);
+    }
     if (result != TRL_OK) {
         studio_finish(studio);
     }
@@ -95,11 +116,17 @@ static void trace_colour(const struct studio *studio, int group, struct referenc
                          struct reference_path *path, double rgb[3])
 {
     const struct reference_tracer *tracer = &studio->tracers[group];
-    const bool is_in_air = reference_enter(&studio->world, path);
-    lanes4 radiance = see_star(tracer, path, is_in_air);
-    if (is_in_air) {
-        reference_trace(tracer, scratch, path);
-        radiance += path->radiance;
+    lanes4 radiance = {0};
+    if (studio->under[group]) {
+        reference_under_trace(studio->under[group], tracer, scratch, path);
+        radiance = path->radiance;
+    } else {
+        const bool is_in_air = reference_enter(&studio->world, path);
+        radiance = see_star(tracer, path, is_in_air);
+        if (is_in_air) {
+            reference_trace(tracer, scratch, path);
+            radiance += path->radiance;
+        }
     }
     for (int c = 0; c < 3; ++c) {
         rgb[c] = 0;

@@ -7,6 +7,7 @@
 
 #include "base/vec3.h"
 #include "reference/sea.h"
+#include "reference/under.h"
 
 #include <stdbool.h>
 
@@ -24,9 +25,10 @@ struct reference_look {
 // length but 0.
 struct reference_surface {
     const void *user;
-    double lowest_m, highest_m; // altitudes between which the ground lies
-    struct reference_sea sea;   // where a look says that there is water
-    double white_cd_m2;         // luminance of the ground's own light where that is white
+    double lowest_m, highest_m;   // altitudes between which the ground lies
+    struct reference_sea sea;     // where a look says that there is water
+    struct reference_under under; // where the eye is below it
+    double white_cd_m2;           // luminance of the ground's own light where that is white
     // Altitude above the medium's ground.
     double (*altitude_m)(const void *user, struct vec3 direction);
     // Along the ground within `reach_m` the height bends as a parabola does over this length,

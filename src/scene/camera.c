@@ -41,7 +41,8 @@ double camera_altitude_m(const trl_view *view, const struct camera_place *place)
 {
     double base_m = view->altitude_mode == TRL_ALTITUDE_SPHERE ? 0 : place->ground_altitude_m;
     base_m += view->altitude_mode == TRL_ALTITUDE_WAVES ? place->wave_m : 0;
-    return fmax(base_m + view->altitude_m, place->ground_altitude_m + CAMERA_MIN_HEIGHT_M);
+    return fmax(base_m + view->altitude_m,
+                place->ground_altitude_m - place->water_depth_m + CAMERA_MIN_HEIGHT_M);
 }
 
 static struct vec3 find_position(const trl_view *view, const struct camera_place *place,

@@ -19,6 +19,7 @@ struct scene_body;
 struct camera_place {
     double radius_m;                 // of the reference sphere
     double ground_altitude_m;        // above the sphere, below the camera
+    double water_depth_m;            // of water there into which eyes may go; 0: none
     double wave_m;                   // of the sea there, above its level; 0 where nobody knows
     const struct scene_body *bodies; // of the scene; NULL when there are none
     size_t body_count;
@@ -29,7 +30,7 @@ struct camera_place {
 TRL_MUST_USE trl_result camera_check(const trl_context *ctx, const trl_view *view,
                                      const struct camera_place *place);
 
-// Altitude above the sphere, lifted above the ground.
+// Altitude above the sphere, lifted above the ground or the water's bed.
 double camera_altitude_m(const trl_view *view, const struct camera_place *place);
 
 // The camera of a view whose numbers are in range and which camera_check lets pass; `aspect` is

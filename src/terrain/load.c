@@ -337,9 +337,8 @@ static trl_result fill_surface(const struct surface_desc *desc, struct surface *
     if (result == TRL_OK) {
         result = load_start_stream(&loader);
     }
-    // Tiles need them as they come, and looks without a GPU; made-up relief ends at lakes.
-    const bool is_looked_at = out->depth.is_told && (!out->gpu || noise_is_there(&out->noise));
-    if (result == TRL_OK && !out->stream && !is_looked_at) {
+    // Tiles need them as they come; an ocean has depths into which eyes may go.
+    if (result == TRL_OK && !out->stream && !out->depth.is_told) {
         free_masks(out);
     }
     if (result != TRL_OK) {

@@ -145,6 +145,15 @@ double surface_water(const struct surface *surface, struct vec3 direction, doubl
                                .made = fmax(-1, fmin(1, made))});
 }
 
+double surface_water_depth_m(const struct surface *surface, struct vec3 direction)
+{
+    double code = 0;
+    if (!surface->depth.is_told || !(surface_water(surface, direction, &code) > 0.5)) {
+        return 0;
+    }
+    return surface->depth.everywhere_m >= 0 ? surface->depth.everywhere_m : sea_code_depth(code);
+}
+
 static bool is_within(const struct layer_frame *frame, struct vec3 up, double reach_rad)
 {
     return acos(fmax(-1, fmin(1, vec3_dot(up, frame->direction)))) <= reach_rad + frame->reach_rad;

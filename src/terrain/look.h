@@ -26,4 +26,8 @@ struct vec3 surface_normal(const struct surface *surface, struct vec3 direction)
 // `reach_rad` of a direction; without one a hundredth of the radius.
 double surface_half_texel_m(const struct surface *surface, struct vec3 direction, double reach_rad);
 
+// Of open water there, m; 0: none. What is deeper than SEA_DEEP_M of shared/sea.glsl counts as
+// that, but where all water is as deep.
+double surface_water_depth_m(const struct surface *surface, struct vec3 direction);
+
 #endif // TERRAIN_LOOK_H
