@@ -98,6 +98,7 @@ trl_result frame_change_atmosphere(struct frame *frame, const struct medium *med
         }
     }
     space_change(&frame->space);
+    under_forget(&frame->under);
     medium_finish(frame->ctx, &old);
     return result;
 }
@@ -155,6 +156,7 @@ trl_result frame_init(const struct frame_desc *desc, struct frame *out)
     }
     if (result == TRL_OK) {
         clouds_init(out->gpu, desc->scene, &out->clouds);
+        under_init(out->gpu, desc->scene, &out->sea, &out->ground, &out->under);
         result = frame_set_sky_model(out, desc->sky_model);
     }
     if (result == TRL_OK) {
@@ -193,6 +195,7 @@ void frame_finish(struct frame *frame)
         }
         space_finish(&frame->space);
         clouds_finish(&frame->clouds);
+        under_finish(&frame->under);
         ground_finish(&frame->ground);
     }
     gpu_destroy(&frame->gpu);
@@ -267,13 +270,32 @@ struct camera_place frame_place(const struct frame *frame, const trl_view *view)
 {
     const double latitude_rad = view->latitude_rad, longitude_rad = view->longitude_rad;
     const bool rides = view->altitude_mode == TRL_ALTITUDE_WAVES;
+    const bool dives = frame->skies[frame->sky_model].model->get_air;
     return (struct camera_place){
         .radius_m = frame->scene->medium.ground_radius_m,
         .ground_altitude_m = ground_altitude_m(&frame->ground, latitude_rad, longitude_rad),
+        .water_depth_m =
+            dives ? ground_water_depth_m(&frame->ground, latitude_rad, longitude_rad) : 0,
         .wave_m =
             rides ? ground_wave_m(&frame->ground, latitude_rad, longitude_rad, view->time_s) : 0,
         .bodies = frame->scene->bodies,
         .body_count = frame->scene->body_count};
+}
+
+// Of an eye under water: ground and clouds are not seen there.
+static trl_result draw_under(struct frame *frame, const struct camera *camera,
+                             const trl_view *shown, const struct under_eye *eye)
+{
+    struct sky *sky = &frame->skies[frame->sky_model];
+    const struct sky_view view = {
+        .camera = camera, .air = TRL_AIR_TABLE, .target = &frame->radiance_target};
+    frame_clock_part(&frame->clock, "sky maps");
+    trl_result result = sky_prepare(sky, &view);
+    if (result == TRL_OK) {
+        frame_clock_part(&frame->clock, "sky");
+        result = under_draw(&frame->under, sky, &view, eye, shown->time_s);
+    }
+    return result;
 }
 
 static trl_result draw_radiance(struct frame *frame, const struct camera *camera,
@@ -368,7 +390,11 @@ trl_result frame_draw(struct frame *frame, const struct frame_request *request)
         camera_resolve(view, &place, (double)request->width / request->height);
     frame->is_drawn = false;
     frame_clock_start(&frame->clock);
-    result = draw_radiance(frame, &camera, view);
+    struct under_eye eye;
+    const bool is_under =
+        under_find(&frame->under, &frame->skies[frame->sky_model], &camera, view->time_s, &eye);
+    result =
+        is_under ? draw_under(frame, &camera, view, &eye) : draw_radiance(frame, &camera, view);
     if (result == TRL_OK) {
         result = develop(frame, request);
     }

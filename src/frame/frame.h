@@ -24,6 +24,7 @@
 #include "frame/ground.h"
 #include "frame/sea.h"
 #include "frame/tone.h"
+#include "frame/under.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "sky/sky.h"
@@ -53,6 +54,7 @@ struct frame {
     struct space space;
     struct body_desc bodies[SCENE_MAX_BODIES]; // the scene's
     struct frame_sea sea;
+    struct under under;
     trl_sky_model sky_model; // that frames are drawn with
     struct sky_spheres spheres;
     trl_air air;

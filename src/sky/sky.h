@@ -18,6 +18,8 @@
 #include "sky/sea.h"
 #include <terrella/renderer.h>
 
+struct bands;
+
 struct sky_desc {
     struct gpu *gpu;
     const struct medium *medium;       // must outlive the sky
@@ -87,6 +89,7 @@ struct sky_view {
 // What a program that includes sky/spectral/air.glsl takes from a model that has such air.
 struct sky_air {
     int peaked_count;
+    const struct bands *bands;
     bool has_march; // with the define MARCH
     // Sets what sky/ray.glsl needs, with `whole` also the maps of the air and of light on the
     // ground.

@@ -353,6 +353,7 @@ static struct sky_air spectral_get_air(const void *self, const struct sky_view *
 {
     const struct spectral *sky = self;
     return (struct sky_air){.peaked_count = sky->maps.atmosphere->peaked.count,
+                            .bands = &sky->maps.atmosphere->bands,
                             .has_march = find_shades(sky, view).has_march,
                             .bind = bind_air,
                             .self = self};

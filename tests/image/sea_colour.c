@@ -2,41 +2,12 @@
 // SPDX-License-Identifier: MIT
 // The colour of deep and of shallow water behind air, drawn in four bands, against the path
 // tracer's at 64 wavelengths.
-#include <terrella/terrella.h>
+#include "sea_scene.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 enum { SIZE = 8, PIXELS = SIZE * SIZE };
 static const double PI = 3.14159265358979323846;
-
-static const char scene_format[] =
-    "{\"terrella\": 1, \"name\": \"sea\","
-    " \"star\": {\"spectral_irradiance\": [[360, 1.1], [450, 1.9], [550, 1.85], [700, 1.4]]},"
-    " \"planet\": {\"radius_m\": 6371000, \"ground_albedo\": 0.1},"
-    " \"atmosphere\": {\"height_m\": 60000, \"constituents\": [{\"name\": \"air\","
-    "  \"scattering_per_m\": [[360, 6.6e-5], [400, 4.3e-5], [450, 2.6e-5], [500, 1.7e-5],"
-    "   [550, 1.15e-5], [600, 8.1e-6], [700, 4.3e-6], [830, 2.2e-6]],"
-    "  \"profile\": {\"exponential\": {\"scale_height_m\": 8000}}, \"phase\": \"rayleigh\"}]},"
-    " \"surface\": {\"layers\": [{\"elevation\": \"black.png\"}, {\"water\": \"white.png\"}]},"
-    " \"ocean\": {\"waves\": {\"mean_square_slope\": 0.001, \"whitecaps\": 0},"
-    "  \"water\": {%s}, \"bed\": {\"albedo\": 0.4, \"depth_m\": %g}}}";
-
-static void write_map(trl_context *ctx, const char *folder, const char *name, uint8_t value)
-{
-    uint8_t rgba[4 * 8 * 4];
-    char path[128];
-    memset(rgba, value, sizeof rgba);
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    assert_int_equal(trl_image_write_png(ctx, path, 8, 4, rgba), TRL_OK);
-}
 
 static void average(const float *radiance, double rgb[3])
 {
@@ -94,23 +65,12 @@ static void drawn_water_has_the_colour_of_the_paths(void **state)
         int water;
         double depth_m;
     } cases[] = {{0, 4}, {0, 40}, {1, 10}};
-    char folder[] = "/tmp/terrella-colour-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
-    trl_context_desc desc = trl_context_desc_default();
-    desc.log = trl_log_stderr;
-    desc.cache_dir = "";
-    trl_context *ctx = NULL;
-    assert_int_equal(trl_context_create(&desc, &ctx), TRL_OK);
-    write_map(ctx, folder, "black.png", 0);
-    write_map(ctx, folder, "white.png", 255);
+    struct sea_scene s;
+    sea_scene_begin(&s);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[2048];
-        const int length =
-            snprintf(text, sizeof text, scene_format, waters[cases[i].water], cases[i].depth_m);
-        trl_scene *scene = NULL;
         double drawn[3], traced[3], error[3];
-        assert_int_equal(trl_scene_parse(ctx, text, (size_t)length, "sea", folder, &scene), TRL_OK);
-        look(ctx, scene, drawn, traced, error);
+        trl_scene *scene = sea_scene_make(&s, 0.001, waters[cases[i].water], cases[i].depth_m);
+        look(s.ctx, scene, drawn, traced, error);
         trl_scene_destroy(&scene);
         for (int c = 0; c < 3; c++) {
             const double off = drawn[c] / traced[c] - 1, noise = error[c] / traced[c];
@@ -123,12 +83,7 @@ static void drawn_water_has_the_colour_of_the_paths(void **state)
                         fmax(0.03 * traced[c], 0.01 * brightest) + 2 * error[c]);
         }
     }
-    snprintf(path, sizeof path, "%s/black.png", folder);
-    unlink(path);
-    snprintf(path, sizeof path, "%s/white.png", folder);
-    unlink(path);
-    rmdir(folder);
-    trl_context_destroy(&ctx);
+    sea_scene_end(&s);
 }
 
 int main(void)
