@@ -38,7 +38,9 @@ GerstnerSum waves_add(GerstnerSum sum, GerstnerWave w, GerstnerPlace p, WavesWin
     GerstnerRipple r =
         gerstner_ripple(w, p, u_wave_range.x, gerstner_small_angle(gerstner_turn(w, p)));
     vec2 d = vec2(r.dx, r.dy) * w.wavenumber;
-    float weight = near * gerstner_weight(dot(d, window.x), dot(d, window.y));
+    float sides2 = dot(window.x, window.x) + dot(window.y, window.y);
+    float weight =
+        near * gerstner_weight_of(dot(d, window.x), dot(d, window.y), w.wavenumber, sides2);
     sum = gerstner_add(sum, w, r, weight);
     sum.press += press * weight * r.sine;
     sum.press_square += 0.5 * press * press;

@@ -167,6 +167,19 @@ SHARED_FN Number gerstner_weight(Angle along_x, Angle along_y)
     return exp(-0.125 * (along_x * along_x + along_y * along_y));
 }
 
+// A drawn wave stands for a share of all directions, of this deviation from its own (a tenth of
+// their range, which has one wave of eight): crests end. With `sides2`, the sum of the sides'
+// squares, what is left of the mean of them all; else a wave that runs across a long pixel would
+// be seen to the horizon.
+#define GERSTNER_COURSES 0.2
+
+SHARED_FN Number gerstner_weight_of(Angle along_x, Angle along_y, PerLength wavenumber, Area sides2)
+{
+    Number spread2 = GERSTNER_COURSES * GERSTNER_COURSES;
+    return exp(-0.125 * ((1.0 - spread2) * (along_x * along_x + along_y * along_y) +
+                         spread2 * wavenumber * wavenumber * sides2));
+}
+
 // The wavenumber of which a window whose shorter side is `least` leaves GERSTNER_LEAST_WEIGHT,
 // where `near` of all waves is shown.
 SHARED_FN PerLength gerstner_last(Number near, Length least)

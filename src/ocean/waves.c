@@ -69,14 +69,18 @@ static void sum_spectrum(const struct wave_spectrum *s, struct sums *out)
     }
 }
 
-// The step at which half the share of the height's variance and half that of the slope's reach it.
+// Of the waves, what is drawn evenly over the variance of slopes, the rest over that of heights.
+// Slopes are what glints show, over ten times as many octaves.
+static const double BY_SLOPE = 0.7;
+
+// The step at which shares of the variances of height and slope reach it.
 static int find_step(const struct sums *sums, double part)
 {
     int low = 0, high = STEPS;
     while (low < high) {
         const int middle = (low + high) / 2;
-        const double here = 0.5 * (sums->height_m2[middle] / sums->height_m2[STEPS] +
-                                   sums->slope[middle] / sums->slope[STEPS]);
+        const double here = (1 - BY_SLOPE) * sums->height_m2[middle] / sums->height_m2[STEPS] +
+                            BY_SLOPE * sums->slope[middle] / sums->slope[STEPS];
         low = here < part ? middle + 1 : low;
         high = here < part ? high : middle;
     }

@@ -45,7 +45,8 @@ static GerstnerSum sum_on_cpu(const struct scene *s, struct vec3 place, double s
         const GerstnerTurn turn = gerstner_turn(w, p);
         const GerstnerRipple r = gerstner_ripple(w, p, RADIUS_M, atan2(turn.rise, turn.run));
         const double k = w.wavenumber * side_m;
-        const double weight = gerstner_weight(k * r.dx, k * r.dy);
+        const double weight =
+            gerstner_weight_of(k * r.dx, k * r.dy, w.wavenumber, 2 * side_m * side_m);
         // Looked at four by four, while the longest is.
         const double first = waves_view_get(s->texture.view, i - i % WAVES_LANES).wavenumber;
         sum = gerstner_add(sum, w, r, gerstner_weight(first * side_m, 0) > 0.02 ? weight : 0);

@@ -123,7 +123,8 @@ static struct vec3 move_vertex(const struct sea *s, double ring, double spoke, d
         const double out = r.dx * sin(azimuth) + r.dy * cos(azimuth);
         const double side = r.dx * cos(azimuth) - r.dy * sin(azimuth);
         const double weight =
-            gerstner_weight(w.wavenumber * along * out, w.wavenumber * across * side);
+            gerstner_weight_of(w.wavenumber * along * out, w.wavenumber * across * side,
+                               w.wavenumber, along * along + across * across);
         const double first = waves_view_get(s->texture.view, i - i % WAVES_LANES).wavenumber;
         const bool is_shown = first <= gerstner_last(1, fmin(along, across));
         sum = gerstner_add(sum, w, r, is_shown ? weight : 0);
