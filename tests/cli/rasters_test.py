@@ -9,6 +9,7 @@ import os
 import pathlib
 import struct
 import sys
+import tempfile
 import unittest
 
 from process import THIN_SCENE, ProgramTest, read_png, require_gl
@@ -67,8 +68,9 @@ class RastersTest(ProgramTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.served = pathlib.Path(cls.shared_cache) / "served-folder"
-        cls.served.mkdir()
+        folder = tempfile.TemporaryDirectory(prefix="terrella-test-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.served = pathlib.Path(folder.name)
         write_tiff(cls.served / "globe.tif", 3840, 1920)
 
     def setUp(self):
