@@ -268,7 +268,7 @@ def read(reader, files):
 
 def check_shipped(validator, scenes, reader):
     """Shipped scenes are scenes to both. Returns the number of faults."""
-    files = sorted(p for p in scenes.glob("*.json") if not p.name.endswith(".schema.json"))
+    files = sorted(p for p in scenes.rglob("*.json") if not p.name.endswith(".schema.json"))
     if not files:
         sys.exit(f"no scenes in {scenes}")
     faults = 0
