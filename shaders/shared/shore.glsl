@@ -6,6 +6,7 @@
 #ifndef SHARED_SHORE_GLSL
 #define SHARED_SHORE_GLSL
 
+#include "shared/sea.glsl"
 #include "shared/shared.glsl"
 
 // Of a place, or the mean of a footprint.
@@ -62,6 +63,26 @@ SHARED_FN Number shore_water(Shore s)
     Number height = shared_clamp(below, 0.0, 1.0);
     height += (1.0 - height) * shared_max(coarse, 1.0 - s.sea);
     return shared_min(mask, height);
+}
+
+// Where heights finer than the mask have the sea go on into what the mask has as land, the bed lies
+// below the surface too, that deep: no bay is a dry one.
+#define SHORE_BAY_M 5.0
+
+// Of `fine` heights with so many octaves more than the mask has: 0 to 1 over two.
+SHARED_FN Number shore_fine(Number octaves)
+{
+    Number x = shared_clamp(0.5 * octaves, 0.0, 1.0);
+    return x * x * (3.0 - 2.0 * x);
+}
+
+// Depth of water as a code of shared/sea.glsl, where the mask has the part `mask` and `told` is the
+// depth around: toward land, where it may be unknown, it shelves.
+SHARED_FN Number shore_depth(Number told, Number mask, Number fine)
+{
+    Number shelf = 1.0 - mask * mask;
+    Number bay = shared_min(shelf, sea_depth_code(SHORE_BAY_M));
+    return shared_max(told, shelf + (bay - shelf) * fine);
 }
 
 #endif // SHARED_SHORE_GLSL

@@ -36,7 +36,7 @@ float look_shore(vec3 water, Tangent t, LookGround ground)
     for (int i = 0; i < count; i++) {
         float altitude = layers_altitude_linear(0.0, t.ground, t.log2_footprint);
         float around = layers_altitude_linear(0.0, t.ground, max(t.log2_footprint, water.z + 1.0));
-        around *= 1.0 - smoothstep(0.0, 2.0, water.z - ground.log2_texel);
+        around *= 1.0 - shore_fine(water.z - ground.log2_texel);
         float width = exp2(t.log2_footprint);
         part = shore_water(Shore(water.x, width * exp2(-water.z), water.y > 0.5 / 255.0 ? 1.0 : 0.0,
                                  altitude, around, width * ground.steep,
@@ -46,10 +46,22 @@ float look_shore(vec3 water, Tangent t, LookGround ground)
     return part;
 }
 
-// Its depth as a code of shared/sea.glsl: toward land, where it may be unknown, it shelves.
-float look_shore_depth(vec3 water)
+// Its depth as a code of shared/sea.glsl.
+float look_shore_depth(vec3 water, float log2_texel)
 {
-    return max(water.y, 1.0 - water.x * water.x);
+    return shore_depth(water.y, water.x, shore_fine(water.z - log2_texel));
+}
+
+// Square root of the albedo around, of land with that one and of what sea the masks have there, or
+// made-up ground has here.
+vec3 look_region(vec3 root, Tangent t, float made_sea)
+{
+#ifdef HAS_DEPTH
+    float sea = max(terrain_water(t.ground, max(t.log2_footprint, u_region)).x, made_sea);
+    return sqrt(mix(root * root, u_sea_albedo, sea));
+#else
+    return root;
+#endif
 }
 
 #ifdef HAS_NOISE
@@ -91,11 +103,12 @@ Look find_look(Tangent t, LookPlace p)
     Look look;
     vec3 water = terrain_water(t.ground, t.log2_footprint);
     look.water = look_shore(water, t, LookGround(length(base.slope), base.view.texel, r.tone));
-    look.depth = look_shore_depth(water);
+    look.depth = look_shore_depth(water, base.view.texel);
     vec3 albedo = u_default_albedo;
     vec3 region = u_default_albedo;
+    float sea = 0.0;
 #ifdef HAS_GROUND
-    float sea = look_sea(r.height, steep * steep + r.unseen, exp2(t.log2_footprint));
+    sea = look_sea(r.height, steep * steep + r.unseen, exp2(t.log2_footprint));
 #ifdef HAS_DEPTH
     look.depth = sea > look.water ? sea_depth_code(u_noise_form.w - r.height) : look.depth;
 #endif
@@ -129,6 +142,7 @@ Look find_look(Tangent t, LookPlace p)
 #endif
     look.region =
         terrain_albedo(sqrt(clamp(region, 0.0, 1.0)), t.ground, max(t.log2_footprint, u_region));
+    look.region = look_region(look.region, t, sea);
 #ifndef HAS_GROUND
     float land = 1.0 - look.water;
     look.root = look_weathered(look.root, land * r.tone, land * steep, land * sqrt(r.unseen));
@@ -150,8 +164,9 @@ Look find_look(Tangent t, LookPlace p)
     vec3 root = sqrt(u_default_albedo);
     vec3 water = terrain_water(t.ground, t.log2_footprint);
     float part = look_shore(water, t, LookGround(length(slope.xyz), slope.w, 0.0));
-    return Look(terrain_albedo(root, t.ground, t.log2_footprint), part, look_shore_depth(water),
-                normalize(t.up - slope.xyz),
-                terrain_albedo(root, t.ground, max(t.log2_footprint, u_region)));
+    vec3 region = terrain_albedo(root, t.ground, max(t.log2_footprint, u_region));
+    return Look(terrain_albedo(root, t.ground, t.log2_footprint), part,
+                look_shore_depth(water, slope.w), normalize(t.up - slope.xyz),
+                look_region(region, t, 0.0));
 }
 #endif

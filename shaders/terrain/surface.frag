@@ -195,6 +195,7 @@ vec3 terrain_lights(Ground g, float log2_footprint)
 #ifdef HAS_DEPTH
 #include "shared/sea.glsl"
 uniform float u_sea_depth; // code of the depth everywhere; below 0: there is none
+uniform vec3 u_sea_albedo; // of what a region has of the sea
 #endif
 #include "terrain/look.glsl"
 

@@ -10,6 +10,7 @@
 #include "terrain/projective.h"
 
 #include <math.h>
+#include <string.h>
 
 static enum surface_kind choose_kind(enum layer_kind kind)
 {
@@ -362,10 +363,14 @@ static trl_result draw_sea_mesh(struct ground *ground, const struct camera *came
     return sea_mesh_draw(&ground->sea_mesh, &inputs);
 }
 
-static trl_result draw_surface(struct ground *ground, const struct camera *camera)
+static trl_result draw_surface(struct ground *ground, const struct camera *camera,
+                               const struct ground_extras *extras)
 {
-    const struct terrain_compose_inputs inputs = {camera, find_position(ground), &ground->shadow,
-                                                  ground->region_m};
+    struct terrain_compose_inputs inputs = {.camera = camera,
+                                            .position = find_position(ground),
+                                            .shadow = &ground->shadow,
+                                            .region_m = ground->region_m};
+    memcpy(inputs.sea_albedo, extras->sea_albedo, sizeof inputs.sea_albedo);
     trl_result result = terrain_kinds_draw(&ground->kinds, inputs.position, &ground->kinds_target);
     if (result == TRL_OK) {
         result = terrain_compose_draw(&ground->compose, &inputs, &ground->surface_target);
@@ -420,7 +425,7 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
     }
     if (result == TRL_OK) {
         frame_clock_part(clock, "surface");
-        result = draw_surface(ground, camera);
+        result = draw_surface(ground, camera, extras);
     }
     if (result == TRL_OK && ground->has_waves) {
         frame_clock_part(clock, "waves");

@@ -102,6 +102,22 @@ trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
     return result;
 }
 
+void frame_sea_albedo(const struct frame_sea *sea, float albedo[3])
+{
+    const struct sky_sea_volume *v = sea->volume;
+    const double surface = v ? sea_diffuse_reflectance(sea->sea.index) : 0;
+    for (int c = 0; c < 3; c++) {
+        double below = 0; // from straight up to grazing it hardly differs
+        for (int k = 0; v && k < SKY_SEA_WAVELENGTHS; k++) {
+            below += v->rgb_from_spectrum[c][k] *
+                     (double)v->spectrum[SKY_SEA_ANGLES / 2][SKY_SEA_ROWS - 1][0][k];
+        }
+        const double clear = surface + fmax(below, 0) * (1 - surface);
+        const double white = v ? sea->sea.white_share : 0;
+        albedo[c] = (float)(clear + white * (sea->sea.white_albedo - clear));
+    }
+}
+
 void frame_sea_finish(struct frame_sea *sea)
 {
     mem_free(sea->ctx, sea->volume);

@@ -23,6 +23,10 @@ TRL_MUST_USE trl_result frame_sea_init(const trl_context *ctx, const struct trl_
                                        struct frame_sea *out);
 void frame_sea_finish(struct frame_sea *sea);
 
+// Part of the light of an even sky that the deep sea sends back: its surface, white caps, and what
+// comes out of it; linear sRGB. 0 where there is no ocean.
+void frame_sea_albedo(const struct frame_sea *sea, float albedo[3]);
+
 // The colours of water in that star's light. TRL_ERROR_MEMORY; free it with mem_free.
 TRL_MUST_USE trl_result frame_sea_make_volume(const trl_context *ctx,
                                               const struct ocean_desc *ocean,

@@ -144,6 +144,7 @@ trl_result terrain_compose_draw(struct terrain_compose *compose,
         const double depth_m = surface->depth.everywhere_m;
         gpu_program_set_float(program, "u_sea_depth",
                               depth_m < 0 ? -1 : (float)sea_depth_code(depth_m));
+        gpu_program_set_vec3(program, "u_sea_albedo", in->sea_albedo);
     }
     gpu_program_set_float(program, "u_region", (float)log2(fmax(in->region_m, 1e-3)));
     const struct gpu_pass pass = {

@@ -27,6 +27,7 @@ struct terrain_compose_inputs {
     const struct gpu_texture *position;  // drawn by a mesher for that camera
     const struct terrain_shadow *shadow; // updated for it
     double region_m;                     // over which color 3 is averaged
+    float sea_albedo[3];                 // of open water in it, where the surface tells its depth
 };
 
 // Draws all of `target`, of the position's size:

@@ -111,8 +111,7 @@ static double find_level(const struct surface *surface, struct place at, double 
 static double find_around(const struct surface *surface, struct place at, double mask_rad,
                           double texel_rad)
 {
-    const double finer = fmax(0, fmin(1, 0.5 * log2(mask_rad / texel_rad)));
-    const double share = 1 - finer * finer * (3 - 2 * finer);
+    const double share = 1 - shore_fine(log2(mask_rad / texel_rad));
     double sum = 0;
     for (int k = 0; k < 4 && share > 0; k++) {
         const struct place beside = {at.latitude + (k / 2 - 0.5) * mask_rad,
@@ -126,15 +125,21 @@ double surface_water(const struct surface *surface, struct vec3 direction, doubl
 {
     const struct place at = find_place(direction);
     const struct mask_look mask = find_mask(surface, at);
-    const double shelf = 1 - mask.water * mask.water;
-    *depth_code = surface->depth.everywhere_m >= 0 ? sea_depth_code(surface->depth.everywhere_m)
-                                                   : fmax(mask.code, mask.water > 0 ? shelf : 0);
-    if (!(mask.water > 0) || surface->counts[SURFACE_ELEVATION] == 0) {
-        return mask.water;
+    const double everywhere_m = surface->depth.everywhere_m;
+    *depth_code = everywhere_m >= 0 ? sea_depth_code(everywhere_m) : mask.code;
+    if (!(mask.water > 0)) {
+        return 0;
     }
     struct noise_place place;
     double texel_rad = mask.texel_rad;
     const double altitude_m = find_level(surface, at, &texel_rad);
+    if (everywhere_m < 0) {
+        const double fine = shore_fine(log2(mask.texel_rad / texel_rad));
+        *depth_code = shore_depth(mask.code, mask.water, fine);
+    }
+    if (surface->counts[SURFACE_ELEVATION] == 0) {
+        return mask.water;
+    }
     const double made = noise_is_there(&surface->noise)
                             ? surface_relief(surface, vec3_normalize(direction), &place).tone
                             : 0;

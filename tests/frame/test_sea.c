@@ -26,7 +26,7 @@ static const char scene_format[] =
     "{\"terrella\": 1, \"name\": \"sea\","
     " \"star\": {\"spectral_irradiance\": 1.5, \"angular_radius_deg\": 0.27},"
     " \"planet\": {\"radius_m\": 6371000, \"ground_albedo\": 0.3},"
-    " \"surface\": {\"layers\": [{\"elevation\": \"black.png\"}, {\"colour\": \"white.png\"},"
+    " \"surface\": {\"layers\": [{\"elevation\": \"black.png\"}, {\"colour\": \"%s.png\"},"
     "  {\"water\": \"white.png\"}]}%s}";
 
 #define BLACK_WATER                                                                                \
@@ -35,11 +35,11 @@ static const char scene_format[] =
 
 // The middle pixel from 1000 km, looking straight down, for a few suns; green.
 enum { SUNS = 3 };
-static void look_down(const struct setup *s, const char *ocean, const double elevations_deg[SUNS],
-                      double greens[SUNS])
+static void look_down(const struct setup *s, const char *picture, const char *ocean,
+                      const double elevations_deg[SUNS], double greens[SUNS])
 {
     char text[1024];
-    const int length = snprintf(text, sizeof text, scene_format, ocean);
+    const int length = snprintf(text, sizeof text, scene_format, picture, ocean);
     trl_scene *scene = NULL;
     trl_renderer *renderer = NULL;
     assert_int_equal(trl_scene_parse(s->f->ctx, text, (size_t)length, "sea", s->folder, &scene),
@@ -108,9 +108,9 @@ static void the_glint_is_that_of_the_slopes(void **state)
 {
     // Ground is white where there is no ocean, which tells the star's light, and water level.
     double ground[SUNS], glint[SUNS];
-    look_down(*state, "", ELEVATIONS_DEG, ground);
+    look_down(*state, "white", "", ELEVATIONS_DEG, ground);
     look_down(
-        *state,
+        *state, "white",
         ", \"ocean\": {\"waves\": {\"mean_square_slope\": 0.04, \"whitecaps\": 0}, " BLACK_WATER
         "}",
         ELEVATIONS_DEG, glint);
@@ -139,10 +139,28 @@ static void shallow_water_shows_its_bed(void **state)
         char ocean[256];
         double greens[SUNS];
         snprintf(ocean, sizeof ocean, format, depths_m[i]);
-        look_down(*state, ocean, (const double[]){50, 30, -30}, greens); // beside the glint
+        look_down(*state, "white", ocean, (const double[]){50, 30, -30},
+                  greens); // beside the glint
         assert_true(greens[0] > greens[1] && greens[1] > 0 && greens[2] < 1e-6 * greens[1]);
         assert_true(greens[0] < 0.9 * before);
         before = greens[0];
+    }
+}
+
+// What pictures have where the sea is does not light the air above it.
+static void the_air_over_the_sea_does_not_know_its_picture(void **state)
+{
+    const char *const air =
+        ", \"atmosphere\": {\"height_m\": 60000, \"constituents\": [{\"name\": \"air\","
+        " \"scattering_per_m\": 1.3e-5, \"profile\": {\"exponential\": {\"scale_height_m\": "
+        "8000}}, \"phase\": \"rayleigh\"}]}, \"ocean\": {\"waves\": {\"count\": 4}}";
+    double greens[2][SUNS];
+    for (int i = 0; i < 2; i++) {
+        look_down(*state, i ? "white" : "black", air, ELEVATIONS_DEG, greens[i]);
+    }
+    for (int i = 0; i < SUNS; i++) {
+        printf("over black %g, over white %g\n", greens[0][i], greens[1][i]);
+        assert_true(fabs(greens[1][i] / greens[0][i] - 1) < 1e-3);
     }
 }
 
@@ -151,7 +169,7 @@ static double find_contrast(const struct setup *s, trl_sky_model model, double *
 {
     char text[1024];
     const int length =
-        snprintf(text, sizeof text, scene_format,
+        snprintf(text, sizeof text, scene_format, "white",
                  ", \"ocean\": {\"waves\": {\"wind_m_s\": 7, \"whitecaps\": 0}, " BLACK_WATER "}");
     trl_scene *scene = NULL;
     trl_renderer *renderer = NULL;
@@ -201,6 +219,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_glint_is_that_of_the_slopes),
         cmocka_unit_test(shallow_water_shows_its_bed),
+        cmocka_unit_test(the_air_over_the_sea_does_not_know_its_picture),
         cmocka_unit_test(every_model_has_the_same_waves),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

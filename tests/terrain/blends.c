@@ -374,7 +374,8 @@ static void draw_view(struct view *v, const struct camera *camera)
 {
     fixture_picture_draw(&v->picture, v->mesher, camera);
     assert_int_equal(terrain_shadow_update(&v->shadow, camera), TRL_OK);
-    const struct terrain_compose_inputs inputs = {camera, &v->picture.position, &v->shadow, 0};
+    const struct terrain_compose_inputs inputs = {
+        .camera = camera, .position = &v->picture.position, .shadow = &v->shadow};
     assert_int_equal(terrain_compose_draw(&v->compose, &inputs, &v->target), TRL_OK);
 }
 

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 // Where water ends: between the texels of a mask, and beside pictures that show the sea.
 #include "fixture.h"
+#include "shared/sea.glsl"
 #include "terrain/look.h"
+
+#include <stdio.h>
 
 static const double DEGREE = 0.017453292519943295;
 static const double R = 6.4e6;
@@ -10,7 +13,8 @@ static const double R = 6.4e6;
 enum { ELEVATION, WATER, COLOUR, LAYERS };
 
 // The sea west of Greenwich, with a steep rock in it that only heights know; land east of it, with
-// a lake in the hills of its north and a depression in its south.
+// a lake in the hills of its north, a depression in its south, and a bay that only heights know, as
+// level as those which tell no depths have the sea.
 static bool is_island(double latitude, double longitude)
 {
     return longitude > -62 && longitude < -58 && latitude > -2 && latitude < 2;
@@ -28,6 +32,9 @@ static double find_height(double latitude, double longitude)
     }
     if (longitude < 0 && !is_island(latitude, longitude)) {
         return -10;
+    }
+    if (fabs(latitude - 5) < 1 && longitude < 1) {
+        return 0;
     }
     return latitude > 10 ? 500 : latitude < -30 ? -50 : 100;
 }
@@ -102,6 +109,33 @@ static void water_ends_where_mask_and_heights_say(void **state)
     surface_finish(&on_cpu);
 }
 
+// Where the mask has land the water shelves, but not to nothing where heights four times as fine
+// have the sea go on. West of that it is as deep as heights say.
+static void no_bay_is_dry(void **state)
+{
+    const struct fixture *f = *state;
+    char paths[LAYERS][128];
+    struct surface_layer_desc layers[LAYERS];
+    const struct surface_desc desc = describe(f, paths, layers);
+    struct surface on_cpu, on_gpu;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &on_cpu), TRL_OK);
+    assert_int_equal(surface_init(f->gpu, &desc, &on_gpu), TRL_OK);
+    const double longitudes[] = {0.5, -0.5, -40}, depths_m[] = {5, 10, 10};
+    for (size_t i = 0; i < 3; i++) {
+        double code;
+        surface_water(&on_cpu, vec3_from_lat_lon(5 * DEGREE, longitudes[i] * DEGREE), &code);
+        const struct camera_place place = {5, longitudes[i], R, 2000, 0, -90, 20};
+        const struct camera camera = fixture_camera(&place);
+        const struct composed c = fixture_compose_middle(f, &on_gpu, &camera);
+        printf("at %g: %.2f m, drawn %.2f m\n", longitudes[i], sea_code_depth(code),
+               sea_code_depth(c.lights[3] / 255.0));
+        assert_close(sea_code_depth(code), depths_m[i], 0.4);
+        assert_close(sea_code_depth(c.lights[3] / 255.0), depths_m[i], 0.4);
+    }
+    surface_finish(&on_gpu);
+    surface_finish(&on_cpu);
+}
+
 // Detail goes on below the data, up to a lake's shore.
 static void made_up_relief_ends_at_a_lake(void **state)
 {
@@ -161,6 +195,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_ends_where_mask_and_heights_say),
+        cmocka_unit_test(no_bay_is_dry),
         cmocka_unit_test(made_up_relief_ends_at_a_lake),
         cmocka_unit_test(land_is_not_painted_as_the_sea_beside_it),
     };

@@ -201,7 +201,8 @@ struct composed fixture_compose_middle(const struct fixture *f, const struct sur
     assert_int_equal(gpu_target_init(f->gpu, &target_desc, &target), TRL_OK);
     fixture_picture_draw(&picture, mesher, camera);
     assert_int_equal(terrain_shadow_update(&shadow, camera), TRL_OK);
-    const struct terrain_compose_inputs inputs = {camera, &picture.position, &shadow, 0};
+    const struct terrain_compose_inputs inputs = {
+        .camera = camera, .position = &picture.position, .shadow = &shadow};
     assert_int_equal(terrain_compose_draw(&compose, &inputs, &target), TRL_OK);
     struct composed c;
     const struct gpu_region middle = {0, PICTURE_SIDE / 2, PICTURE_SIDE / 2, 0, 1, 1, 1};

@@ -94,7 +94,8 @@ static struct camera draw_scene(struct scene *s, double elevation_deg, double wi
     camera.sun_direction = (struct vec3){sin(e), cos(e), 0};
     fixture_picture_draw(&s->picture, s->mesher, &camera);
     assert_int_equal(terrain_shadow_update(&s->shadow, &camera), TRL_OK);
-    const struct terrain_compose_inputs inputs = {&camera, &s->picture.position, &s->shadow, 0};
+    const struct terrain_compose_inputs inputs = {
+        .camera = &camera, .position = &s->picture.position, .shadow = &s->shadow};
     assert_int_equal(terrain_compose_draw(&s->compose, &inputs, &s->target), TRL_OK);
     const struct gpu_region all = gpu_texture_region(&s->normal, 0);
     assert_int_equal(gpu_texture_read(&s->normal, &all, s->visible), TRL_OK);

@@ -104,7 +104,8 @@ static void destroy_scene(struct fixture *f, struct scene *s)
 
 static void draw_scene(struct scene *s, const struct camera *camera)
 {
-    const struct terrain_compose_inputs inputs = {camera, &s->picture.position, &s->shadow, 0};
+    const struct terrain_compose_inputs inputs = {
+        .camera = camera, .position = &s->picture.position, .shadow = &s->shadow};
     const struct terrain_sky_view_inputs ground = {camera, &s->picture.position, &s->colors[1],
                                                    &s->colors[0]};
     fixture_picture_draw(&s->picture, s->planet.mesher, camera);
