@@ -78,7 +78,7 @@ struct bench_arguments {
     struct option_arguments names;
     const char *scene;
     struct mesher_option mesher;
-    struct option_number runs;
+    struct option_number runs, shrink;
     bool is_json;
     bool lists_benches;
     struct data_choice data;
@@ -117,6 +117,14 @@ static enum options_outcome read_arguments(int argc, char **argv, struct bench_a
          .range = {1.0, BENCH_MAX_RUNS},
          .is_whole = true,
          .help = "How often each thing is measured. Default: each bench has its own."},
+        {.name = "shrink",
+         .kind = OPTION_NUMBER,
+         .target.number = &out->shrink,
+         .metavar = "N",
+         .range = {1.0, 64.0},
+         .is_whole = true,
+         .help = "Draw what is timed N times narrower and lower: a quick look at what a bench "
+                 "prints. Default: 1."},
         {.name = "scene",
          .kind = OPTION_TEXT,
          .target.text = &out->scene,
@@ -215,6 +223,15 @@ trl_renderer_desc bench_renderer_desc(const struct bench_job *job, const trl_sce
     return desc;
 }
 
+trl_result bench_draw(const struct bench_job *job, trl_renderer *renderer, const trl_view *view,
+                      struct number_size size, double frame_s)
+{
+    const uint32_t shrink = (uint32_t)job->shrink;
+    const uint32_t width = size.width / shrink;
+    const uint32_t height = size.height / shrink;
+    return trl_renderer_draw(renderer, view, width ? width : 1, height ? height : 1, frame_s);
+}
+
 double bench_timing_ms(const trl_timing *timing)
 {
     return timing->gpu_ms > 0 ? timing->gpu_ms : timing->cpu_ms;
@@ -243,12 +260,18 @@ static enum exit_status run_bench(struct app *app, const struct bench *bench,
     table->name = bench->name;
     table->summary = bench->summary;
     table->source = bench->source;
-    const struct bench_job job = {.app = app,
-                                  .scene = arguments->scene,
-                                  .runs = (int)arguments->runs.value,
-                                  .mesher = arguments->mesher.mesher,
-                                  .is_json = arguments->is_json,
-                                  .table = table};
+    const struct bench_job job = {
+        .app = app,
+        .scene = arguments->scene,
+        .runs = (int)arguments->runs.value,
+        .shrink = arguments->shrink.value > 1 ? (int)arguments->shrink.value : 1,
+        .mesher = arguments->mesher.mesher,
+        .is_json = arguments->is_json,
+        .table = table};
+    if (job.shrink > 1) {
+        bench_note(table, "Pictures that are timed are %d times narrower and lower than said.",
+                   job.shrink);
+    }
     enum exit_status status = report_result(bench->run(&job));
     progress_clear(&app->progress);
     if (status == EXIT_OK && arguments->is_json) {

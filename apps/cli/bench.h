@@ -13,6 +13,7 @@ struct bench_job {
     struct app *app;
     const char *scene; // file given by the user; NULL: the bench's own
     int runs;          // 0: the bench's own number
+    int shrink;        // pictures that are timed are that many times narrower and lower
     int mesher;        // a trl_mesher; -1: the default, or all where they are compared
     bool is_json;      // nothing is printed before the end
     struct bench_table *table;
@@ -39,6 +40,10 @@ void bench_show(const struct bench_job *job);
 
 // A renderer's description with the scene and the job's mesher.
 trl_renderer_desc bench_renderer_desc(const struct bench_job *job, const trl_scene *scene);
+
+// Draws a picture of which the time alone is wanted, smaller by the job's `shrink`.
+trl_result bench_draw(const struct bench_job *job, trl_renderer *renderer, const trl_view *view,
+                      struct number_size size, double frame_s);
 
 // Of a pass of the last frame, on the GPU where there are timer queries.
 double bench_timing_ms(const trl_timing *timing);

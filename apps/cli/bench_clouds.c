@@ -61,7 +61,7 @@ static trl_result draw_case(const struct bench_job *job, const struct cloud_case
         }
         trl_view view = c->view;
         view.heading_rad += c->is_flight ? i * turn_rad : 0;
-        result = trl_renderer_draw(c->renderer, &view, c->size.width, c->size.height, 0);
+        result = bench_draw(job, c->renderer, &view, c->size, 0);
         trl_renderer_wait(c->renderer);
         if (i > 0 && result == TRL_OK) { // the first compiles
             result = add_passes(job, c->renderer, c->name);

@@ -107,13 +107,13 @@ static const struct {
 enum { SCREENS = sizeof screens / sizeof *screens };
 
 // Moves the camera a little, so that what depends on its place is made anew as in a flight.
-static trl_result draw_moving(trl_renderer *renderer, trl_view *view, struct number_size size,
-                              double *spent_s)
+static trl_result draw_moving(const struct bench_job *job, trl_renderer *renderer, trl_view *view,
+                              struct number_size size, double *spent_s)
 {
     view->altitude_m *= 1.001;
     view->longitude_rad += 1e-5;
     const double begun_s = progress_clock_s();
-    const trl_result result = trl_renderer_draw(renderer, view, size.width, size.height, 0.02);
+    const trl_result result = bench_draw(job, renderer, view, size, 0.02);
     trl_renderer_wait(renderer);
     *spent_s = progress_clock_s() - begun_s;
     return result;
@@ -140,7 +140,7 @@ static trl_result fly(const struct bench_job *job, const trl_scene *scene, trl_r
         }
         result = trl_scene_view(scene, trl_scene_view_name(scene, i), &view);
         for (int warm = 0; warm < 2 && result == TRL_OK; warm++) { // the second is measured
-            result = draw_moving(renderer, &view, size, &spent_s);
+            result = draw_moving(job, renderer, &view, size, &spent_s);
         }
         sum_s += spent_s;
         longest_s = fmax(longest_s, spent_s);

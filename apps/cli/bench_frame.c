@@ -62,8 +62,7 @@ static trl_result draw_frame(const struct frame_case *c, double *spent_ms)
 {
     trl_renderer_wait(c->renderer);
     const double begun_s = progress_clock_s();
-    const trl_result result =
-        trl_renderer_draw(c->renderer, &c->view, c->size.width, c->size.height, 0.02);
+    const trl_result result = bench_draw(c->job, c->renderer, &c->view, c->size, 0.02);
     trl_renderer_wait(c->renderer);
     *spent_ms = 1e3 * (progress_clock_s() - begun_s);
     return result;

@@ -13,7 +13,7 @@
 #include <time.h>
 
 enum { GRIDS = 3, ROWS = 4, DEFAULT_RUNS = 3, PATCH_CELLS = 8 };
-enum { WIDTH = 1920, HEIGHT = 1080 }; // "all images are rendered in full-HD"
+static const struct number_size SCREEN = {1920, 1080}; // "all images are rendered in full-HD"
 
 static const uint32_t grids[GRIDS] = {50, 100, 200};
 static const int layers[ROWS] = {0, 1, 5, 10};
@@ -138,7 +138,7 @@ static trl_result measure_case(struct michelic *m, int row, int grid)
         // does so in every frame.
         m->view.longitude_rad += (i % 2 ? -0.1 : 0.1) * pi / 180;
         const clock_t begun = clock();
-        result = trl_renderer_draw(m->renderer, &m->view, WIDTH, HEIGHT, 0.02);
+        result = bench_draw(m->job, m->renderer, &m->view, SCREEN, 0.02);
         trl_renderer_wait(m->renderer);
         const double frame_ms = 1e3 * (double)(clock() - begun) / CLOCKS_PER_SEC;
         if (i >= warm && result == TRL_OK) {

@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEFAULT_RUNS = 3, TIMINGS_MAX = 48, WIDTH = 1920, HEIGHT = 1080 };
+enum { DEFAULT_RUNS = 3, TIMINGS_MAX = 48 };
+static const struct number_size SCREEN = {1920, 1080};
 
 // Passes by what the paper has one number for. What is in none comes after its frame: edges,
 // exposure, tone. The sea's colour is part of the pass "sky" here, which draws what pixels show.
@@ -93,7 +94,7 @@ static trl_result draw_view(const struct bench_job *job, trl_renderer *renderer,
             report_error(EXIT_FAILED, "cancelled while drawing %s", name);
             return TRL_ERROR_CANCELLED;
         }
-        result = trl_renderer_draw(renderer, view, WIDTH, HEIGHT, 0);
+        result = bench_draw(job, renderer, view, SCREEN, 0);
         trl_renderer_wait(renderer);
         if (i > 0 && result == TRL_OK) { // the first compiles
             result = add_frame(job, renderer, name);

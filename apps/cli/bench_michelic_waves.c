@@ -51,7 +51,7 @@ static trl_result measure_size(const struct bench_job *job, trl_renderer *render
     const int runs = bench_runs(job, DEFAULT_RUNS);
     for (int i = 0; i <= runs && result == TRL_OK; i++) {
         view.time_s += 0.04; // phases are found anew, as in every frame
-        result = trl_renderer_draw(renderer, &view, sizes[size].width, sizes[size].height, 0);
+        result = bench_draw(job, renderer, &view, sizes[size], 0);
         trl_renderer_wait(renderer);
         if (i > 0 && result == TRL_OK) { // the first frame compiles
             result = bench_add(job->table, (struct bench_sample){name, metrics[size], "ms",

@@ -53,7 +53,7 @@ static trl_result measure(const struct bench_job *job, trl_renderer *renderer,
     const int runs = bench_runs(job, DEFAULT_RUNS);
     for (int i = 0; i <= runs && result == TRL_OK; i++) {
         view.time_s += 0.04; // waves move, as in every frame
-        result = trl_renderer_draw(renderer, &view, size.width, size.height, 0);
+        result = bench_draw(job, renderer, &view, size, 0);
         trl_renderer_wait(renderer);
         for (int p = 0; p < PASSES && i > 0 && result == TRL_OK; p++) { // the first compiles
             result = bench_add(job->table, (struct bench_sample){place->name, passes[p], "ms",

@@ -30,7 +30,8 @@ static trl_result draw_frame(struct pgm *p, uint32_t screen, double *fps)
 {
     trl_renderer_wait(p->renderer);
     const double begun_s = progress_clock_s();
-    const trl_result result = trl_renderer_draw(p->renderer, &p->view, screen, screen, 0.02);
+    const struct number_size size = {screen, screen};
+    const trl_result result = bench_draw(p->job, p->renderer, &p->view, size, 0.02);
     trl_renderer_wait(p->renderer);
     *fps = 1 / fmax(progress_clock_s() - begun_s, 1e-6);
     return result;

@@ -71,8 +71,7 @@ static trl_result draw_frame(struct table1 *t, const struct table1_case *c, stru
     trl_renderer_wait(t->renderer);
     const double begun_s = progress_clock_s();
     const clock_t begun = clock();
-    const trl_result result =
-        trl_renderer_draw(t->renderer, &c->view, size.width, size.height, 0.02);
+    const trl_result result = bench_draw(t->job, t->renderer, &c->view, size, 0.02);
     trl_renderer_wait(t->renderer);
     time->ms = 1e3 * fmax(progress_clock_s() - begun_s, 1e-6);
     time->cpu_ms = 1e3 * (double)(clock() - begun) / CLOCKS_PER_SEC;

@@ -12,7 +12,8 @@ from render_test import add_layers, make_tiff
 
 class Bench(ProgramTest):
     def measure(self, *words, runs=1):
-        done = self.expect_success("bench", *words, "--json", "--runs", runs, "--scene", self.write_scene())
+        done = self.expect_success("bench", *words, "--json", "--shrink", 8, "--runs", runs, "--scene",
+                                   self.write_scene())
         return [json.loads(line) for line in done.stdout.splitlines()]
 
     def check_form(self, bench, name, runs=1):
@@ -69,6 +70,7 @@ class Bench(ProgramTest):
     def test_frames(self):
         frames, = self.measure("sky-frame")
         self.check_form(frames, "sky-frame")
+        self.assertIn("8 times narrower", frames["notes"][0])
         whole = [row for row in frames["rows"] if row["metric"] == "frame"]
         self.assertEqual({row["case"] for row in whole},
                          {f"{view} {size}" for view in ["ground", "orbit"] for size in ["1024x576", "1920x1080"]})
@@ -93,7 +95,7 @@ class Bench(ProgramTest):
         (self.data / "h.tif").write_bytes(make_tiff(256, 128))
         scene = add_layers({"name": "h", "elevation": "h.tif"})
         del scene["views"]["orbit"]
-        words = ["bench", "pgm-fps", "--runs", "1", "--scene"]
+        words = ["bench", "pgm-fps", "--shrink", "8", "--runs", "1", "--scene"]
         bench = json.loads(self.expect_success(*words, self.write_scene(scene), "--json").stdout)
         rows = {(row["case"], row["metric"]): row for row in bench["rows"]}
         self.assertEqual(len(rows), 2 * 9)
@@ -116,7 +118,7 @@ class Bench(ProgramTest):
         scene["views"] = {"up": {"camera": {"latitude_deg": 10, "longitude_deg": 20, "height_above_ground_m": 30000,
                                             "heading_deg": 0, "pitch_deg": 60, "vertical_fov_deg": 40},
                                  "sun": {"elevation_deg": 40, "azimuth_deg": 0}}}
-        words = ["bench", "michelic-table1", "--runs", "1", "--scene"]
+        words = ["bench", "michelic-table1", "--shrink", "8", "--runs", "1", "--scene"]
         self.expect_failure(1, [*words, self.write_scene(scene)], ["no ground of noise"])
         scene["surface"] = {"noise": {"seed": 1}}
         path = self.write_scene(scene)
@@ -137,7 +139,7 @@ class Bench(ProgramTest):
     def test_planets_with_air_and_without(self):
         (self.data / "h.tif").write_bytes(make_tiff(256, 128))
         scene = add_layers({"name": "h", "elevation": "h.tif"})
-        words = ["bench", "schafhitzel-table1", "--json", "--runs", "1", "--scene"]
+        words = ["bench", "schafhitzel-table1", "--shrink", "8", "--json", "--runs", "1", "--scene"]
         bench = json.loads(self.expect_success(*words, self.write_scene(scene)).stdout)
         rows = {(row["case"], row["metric"]): row["median"] for row in bench["rows"]}
         for view in ["ground", "orbit"]:
