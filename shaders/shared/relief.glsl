@@ -29,6 +29,7 @@ SHARED_STRUCT(Relief)
     // the gradient.
     Number past, past_x, past_y, past_z;
     Number tone;           // for colours: a sum of values
+    Length shore;          // how far shores are off: a sum of values times their wavelengths
     Number cutting;        // of the slope that noise and gullies leave, for what is finer
     Number unseen;         // variance of the slopes of octaves that the footprint hides
     Number unseen_height2; // and of their heights, m^2
@@ -50,6 +51,7 @@ SHARED_FN Relief relief_of(Number height, Number x, Number y, Number z)
     r.past_y = 0.0;
     r.past_z = 0.0;
     r.tone = 0.0;
+    r.shore = 0.0;
     r.cutting = 1.0;
     r.unseen = 0.0;
     r.unseen_height2 = 0.0;

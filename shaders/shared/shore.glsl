@@ -18,7 +18,7 @@ SHARED_STRUCT(Shore)
     Length altitude; // of the ground above sea level; that of open sea is 0
     Length around;   // the same, mean of the texels around; 0 where heights are finer than the mask
     Length rise;     // of the ground over the footprint's width
-    Number made;     // noise about 0 below the mask's texels, -1 to 1
+    Number made;     // of shore_made
 };
 
 // Ground this high is land even where the mask says sea, since the sea is level. Where heights know
@@ -34,6 +34,14 @@ SHARED_STRUCT(Shore)
 #define SHORE_LEVEL_MASK 0.1
 // Of so many of the mask's texels and more a footprint has the mean.
 #define SHORE_MEAN_TEXELS 0.75
+
+// Made-up detail of so many of the mask's texels, -1 to 1. Each octave moves the shore by a part of
+// its own wavelength: more would tear it into specks.
+#define SHORE_MADE 0.5
+SHARED_FN Number shore_made(Number texels)
+{
+    return shared_clamp(SHORE_MADE * texels, -1.0, 1.0);
+}
 
 // Part of the made-up relief that is left where a mask has this value: water is level, and so is
 // what detail may add to it beside a lake. Never 0, where relief would have no detail to tell.

@@ -21,9 +21,10 @@ struct LookPlace {
     float log2_pixel; // of a pixel's width there, m
 };
 
-// Of the ground at a place: its slope, log2 of a texel of its heights, a tone of made-up detail.
+// Of the ground at a place: its slope, log2 of a texel of its heights, how far made-up detail has
+// the shore (m).
 struct LookGround {
-    float steep, log2_texel, tone;
+    float steep, log2_texel, shore;
 };
 
 // Part of a footprint that is open water, where the masks say `water` (see terrain_water).
@@ -40,7 +41,7 @@ float look_shore(vec3 water, Tangent t, LookGround ground)
         float width = exp2(t.log2_footprint);
         part = shore_water(Shore(water.x, width * exp2(-water.z), water.y > 0.5 / 255.0 ? 1.0 : 0.0,
                                  altitude, around, width * ground.steep,
-                                 clamp(ground.tone, -1.0, 1.0)));
+                                 shore_made(ground.shore * exp2(-water.z))));
     }
 #endif
     return part;
@@ -102,7 +103,7 @@ Look find_look(Tangent t, LookPlace p)
     float steep = length(slope);
     Look look;
     vec3 water = terrain_water(t.ground, t.log2_footprint);
-    look.water = look_shore(water, t, LookGround(length(base.slope), base.view.texel, r.tone));
+    look.water = look_shore(water, t, LookGround(length(base.slope), base.view.texel, r.shore));
     look.depth = look_shore_depth(water, base.view.texel);
     vec3 albedo = u_default_albedo;
     vec3 region = u_default_albedo;

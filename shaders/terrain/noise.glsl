@@ -248,7 +248,9 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
             size *= part == 0 ? 1.0 : mix(u_noise_more.x, 1.0, r.cutting);
             float before = r.height;
             r = relief_add(r, relief_fold(n, view.ridged), size * seen, u_noise_form.x);
-            r.tone += size > 0.0 ? seen * relief_tone(u_noise_size[i].x) * n.value : 0.0;
+            float value = size > 0.0 ? seen * n.value : 0.0;
+            r.tone += value * relief_tone(u_noise_size[i].x);
+            r.shore += value / u_noise_place[i].w;
             r = noise_hide(r, i, size, before, view);
         }
         end = part == 2 ? end : i;

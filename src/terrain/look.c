@@ -140,14 +140,14 @@ double surface_water(const struct surface *surface, struct vec3 direction, doubl
     if (surface->counts[SURFACE_ELEVATION] == 0) {
         return mask.water;
     }
-    const double made = noise_is_there(&surface->noise)
-                            ? surface_relief(surface, vec3_normalize(direction), &place).tone
-                            : 0;
+    const double shore_m = noise_is_there(&surface->noise)
+                               ? surface_relief(surface, vec3_normalize(direction), &place).shore
+                               : 0;
     return shore_water((Shore){.mask = mask.water,
                                .sea = mask.code > 0.5 / 255,
                                .altitude = altitude_m,
                                .around = find_around(surface, at, mask.texel_rad, texel_rad),
-                               .made = fmax(-1, fmin(1, made))});
+                               .made = shore_made(shore_m / (mask.texel_rad * surface->radius_m))});
 }
 
 double surface_water_depth_m(const struct surface *surface, struct vec3 direction)

@@ -181,7 +181,9 @@ static Relief add_noise(const struct terrain_noise *noise, const struct noise_pl
         size *= level + (1 - level) * r.cutting;
     }
     r = relief_add(r, relief_fold(turn_back(noise, i, n), g->ridged), size * seen, CONTRAST);
-    r.tone += size > 0 ? seen * relief_tone(log2_wave) * n.value : 0;
+    const double value = size > 0 ? seen * n.value : 0;
+    r.tone += value * relief_tone(log2_wave);
+    r.shore += value * noise->wave_m[i];
     return r;
 }
 

@@ -5,6 +5,7 @@
 #include "shared/sea.glsl"
 #include "terrain/look.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static const double DEGREE = 0.017453292519943295;
@@ -159,6 +160,42 @@ static void made_up_relief_ends_at_a_lake(void **state)
     surface_finish(&s);
 }
 
+// Along lines over a lake's shore, how often water begins or ends: made-up detail winds the shore,
+// and leaves an island here and there, but does not tear it into specks.
+static void made_up_shores_hold_together(void **state)
+{
+    const struct fixture *f = *state;
+    char paths[LAYERS][128];
+    struct surface_layer_desc layers[LAYERS];
+    struct surface_desc desc = describe(f, paths, layers);
+    desc.detail = (struct surface_detail){.roughness = 1, .smallest_m = 100};
+    struct surface s;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &s), TRL_OK);
+    enum { LINES = 24, STEPS = 1000 };
+    int crossings = 0;
+    double code, places[LINES], mean = 0, spread = 0;
+    for (int line = 0; line < LINES; line++) {
+        places[line] = 0;
+        for (int k = 0, was = 0; k < STEPS; k++) {
+            const double latitude = 24 + 0.5 * line, longitude = 39 + 2.0 * k / STEPS;
+            const struct vec3 up = vec3_from_lat_lon(latitude * DEGREE, longitude * DEGREE);
+            const int is = surface_water(&s, up, &code) > 0.5;
+            crossings += is != was;
+            was = is;
+            places[line] += is;
+        }
+        mean += places[line] / LINES;
+    }
+    for (int line = 0; line < LINES; line++) {
+        spread += (places[line] - mean) * (places[line] - mean) / LINES;
+    }
+    const double winding = sqrt(spread) / STEPS; // of a mask's texel
+    printf("%.2f crossings a line, shore off by %.3f texels\n", 1.0 * crossings / LINES, winding);
+    assert_true(crossings < 3 * LINES);
+    assert_true(winding > 0.007);
+    surface_finish(&s);
+}
+
 static double find_red(const struct surface *s, double latitude, double longitude)
 {
     double rgb[3] = {0};
@@ -197,6 +234,7 @@ int main(void)
         cmocka_unit_test(water_ends_where_mask_and_heights_say),
         cmocka_unit_test(no_bay_is_dry),
         cmocka_unit_test(made_up_relief_ends_at_a_lake),
+        cmocka_unit_test(made_up_shores_hold_together),
         cmocka_unit_test(land_is_not_painted_as_the_sea_beside_it),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
