@@ -5,6 +5,28 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+// A cache for all tests of the process: the air of a scene that several of them draw is solved once.
+static char cache[] = "/tmp/terrella-frame-XXXXXX";
+
+static void remove_cache(void)
+{
+    char command[sizeof cache + 16];
+    snprintf(command, sizeof command, "rm -rf '%s'", cache);
+    if (system(command)) {
+        printf("%s is left\n", cache);
+    }
+}
+
+static const char *find_cache(void)
+{
+    static bool is_there;
+    if (!is_there && mkdtemp(cache) && atexit(remove_cache) == 0) {
+        is_there = true;
+    }
+    return is_there ? cache : NULL;
+}
 
 static void receive(void *user, trl_log_level level, trl_log_item item, const char *message)
 {
@@ -24,8 +46,8 @@ int fixture_set_up(void **state)
     desc.log = receive;
     desc.log_user = f;
     desc.data_dir = "/nonexistent/terrella-data";
-    desc.cache_dir = "";
-    return f && trl_context_create(&desc, &f->ctx) == TRL_OK ? 0 : 1;
+    desc.cache_dir = find_cache();
+    return f && desc.cache_dir && trl_context_create(&desc, &f->ctx) == TRL_OK ? 0 : 1;
 }
 
 void fixture_skip_without_gl(const struct fixture *f, trl_result result)
