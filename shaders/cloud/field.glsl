@@ -229,6 +229,15 @@ vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
                 layer.grain.y * density / max(part, 1.0e-4));
 }
 
+// The mean density in a box, by one look.
+float cloud_coarse_density(CloudLayer layer, vec3 place, float cover, CloudBox box)
+{
+    float height = cloud_height(layer, place);
+    vec2 noise = cloud_coarse_noise(layer, place, height, box);
+    float x = noise.x - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    return cloud_density(x, noise.y, layer.form.z);
+}
+
 // Extinction on a way that begins in cloud at the height `from_height`: as far as that cloud may
 // reach, of which `kept` is left, there are no gaps, which a wide box has, but where the cloud ends
 // above.
@@ -247,22 +256,30 @@ float cloud_from_inside(CloudLayer layer, vec2 noise, float cover, float height,
 // Optical depth from a place toward the star, by six places at growing distances (Michelic 2019,
 // Section 5), each of which stands for the clouds as far as to the next.
 const int CLOUD_SUN_PLACES = 6;
-const int CLOUD_SUN_FINE_PLACES = 2;
-const float CLOUD_SUN_REACH_M = 6000.0;
+const int CLOUD_SUN_FINE_PLACES = 3;
+const float CLOUD_SUN_REACH = 0.3125; // at most, in tiles
+const float CLOUD_SUN_BOX = 0.25;     // side of what is looked at, of the way it stands for
+
+// How far toward the star there are looks: to the layer's top, m.
+float cloud_sun_reach(CloudLayer layer, float sun_mu, float height)
+{
+    float thick = layer.shell.y - layer.shell.x;
+    return min((1.0 - height) * thick / max(sun_mu, 0.02), CLOUD_SUN_REACH / layer.grain.x);
+}
 
 // `width` is that of a pixel there.
 float cloud_sun_depth(CloudLayer layer, vec3 place, float cover, float sun_mu, float height,
                       float width)
 {
-    float thick = layer.shell.y - layer.shell.x;
-    float reach = min((1.0 - height) * thick / max(sun_mu, 0.05), CLOUD_SUN_REACH_M);
+    float reach = cloud_sun_reach(layer, sun_mu, height);
     float sum = 0.0;
     float from = 0.0;
     for (int i = 1; i <= CLOUD_SUN_FINE_PLACES; i++) {
         float part = float(i) / float(CLOUD_SUN_PLACES);
         float to = reach * part * part;
         vec3 there = place + u_sun * (0.5 * (from + to));
-        CloudBox box = cloud_box(layer, cloud_level(layer, max(0.5 * (to - from), width)));
+        CloudBox box =
+            cloud_box(layer, cloud_level(layer, max(CLOUD_SUN_BOX * (to - from), width)));
         float high = cloud_height(layer, there);
         vec2 noise = cloud_fine_noise(layer, there, high, box);
         float kept = exp(-0.5 * (from + to) / box.way);
@@ -273,7 +290,8 @@ float cloud_sun_depth(CloudLayer layer, vec3 place, float cover, float sun_mu, f
         float part = float(i) / float(CLOUD_SUN_PLACES);
         float to = reach * part * part;
         vec3 there = place + u_sun * (0.5 * (from + to));
-        CloudBox box = cloud_box(layer, cloud_level(layer, max(0.5 * (to - from), width)));
+        CloudBox box =
+            cloud_box(layer, cloud_level(layer, max(CLOUD_SUN_BOX * (to - from), width)));
         float high = cloud_height(layer, there);
         vec2 noise = cloud_coarse_noise(layer, there, high, box);
         float kept = exp(-0.5 * (from + to) / box.way);

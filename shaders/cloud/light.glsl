@@ -5,6 +5,7 @@
 #define CLOUD_LIGHT_GLSL
 
 #include "cloud/field.glsl"
+#include "sky/deck.glsl"
 #include "sky/spectral/air.glsl"
 
 uniform vec4 u_ground_light; // as in sky/spectral/ground.frag
@@ -12,14 +13,7 @@ uniform vec2 u_light_texel;
 uniform sampler2D u_sunlight;
 uniform sampler2D u_skylight;
 uniform sampler2D u_rising;
-
-// Further orders of scattering inside the cloud, as octaves of which each is dimmer, less dimmed on
-// its way and less peaked than the one before (Wrenninge, Kulla and Lundqvist 2013), and what has
-// lost all direction, which falls with the depth as a diffusion does.
-const float OCTAVE_LIGHT = 0.5;
-const float OCTAVE_DEPTH = 0.4;
-const float OCTAVE_NARROW = 0.5;
-const float DIFFUSE = 3.5;
+uniform sampler2D u_evenness;
 
 // Of what lights clouds around a place, in the bands.
 struct Lights {
@@ -39,16 +33,11 @@ Lights lights_at(vec3 place)
     float sun = sky_map_sunlight(sun_mu, lowest, u_ground_light.z);
     vec2 day = vec2(centre(sun_coordinate(sun_mu), u_light_texel.y), altitude);
     lights.sun = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
-    lights.above = exp(textureLod(u_skylight, day, 0.0)) * (1.0 / SHARED_PI);
-    lights.below = exp(textureLod(u_rising, day, 0.0)) * (1.0 / SHARED_PI);
+    // Clouds take light of all directions as they come, the horizon's too.
+    vec4 even = exp(textureLod(u_evenness, day, 0.0)) * (1.0 / SHARED_PI);
+    lights.above = exp(textureLod(u_skylight, day, 0.0)) * even;
+    lights.below = exp(textureLod(u_rising, day, 0.0)) * even;
     return lights;
-}
-
-// The phase function of each octave.
-vec3 phases_at(float nu)
-{
-    return vec3(cloud_phase(nu, 1.0), cloud_phase(nu, OCTAVE_NARROW),
-                cloud_phase(nu, OCTAVE_NARROW * OCTAVE_NARROW));
 }
 
 // What the light toward the eye is per unit of the star's irradiance and of radiance from above and
@@ -57,27 +46,45 @@ struct Shares {
     float sun, above, below;
 };
 
-Shares shares_at(CloudLayer layer, vec3 place, float cover, float sun_mu, vec3 phases, float width)
+// Of one slice of a ray, for what is lit in it.
+struct Lighting {
+    vec2 phases; // of light that was scattered once, and a few times
+    vec3 up;
+    float sun_mu, view_mu;
+    float width; // of a pixel, m
+};
+
+// Optical depth toward the star beyond what cloud_sun_depth looks at: the map's.
+float far_depth(CloudLayer layer, vec3 place, float sun_mu, float height)
+{
+    vec3 there = place + u_sun * cloud_sun_reach(layer, sun_mu, height);
+    float altitude = cloud_altitude(there);
+    vec3 crossing = there + u_sun * deck_way(there, altitude, u_deck_map.x);
+    vec4 texel = textureLod(u_deck, deck_uv(crossing), 0.0);
+    // Layers are densest below their middle, so tops have less over them than their height says.
+    float below = deck_below(texel.y, altitude);
+    return texel.x * below * sqrt(below);
+}
+
+Shares shares_at(CloudLayer layer, vec3 place, float cover, Lighting lighting)
 {
     float height = cloud_height(layer, place);
-    float depth = cloud_sun_depth(layer, place, cover, sun_mu, height, width);
-    // How thick the cloud around is, from a look at a box of half the layer's height.
+    float depth = cloud_sun_depth(layer, place, cover, lighting.sun_mu, height, lighting.width);
+    float far = far_depth(layer, place, lighting.sun_mu, height);
+    // How dense it is above and below, each by one look.
     float thick_m = layer.shell.y - layer.shell.x;
-    float around =
-        cloud_coarse(layer, place, cover,
-                     cloud_whole_box(layer, cloud_level(layer, max(0.5 * thick_m, width)), 0.5))
-            .y;
-    float thick = CLOUD_DIFFUSE_DEPTH * around * 0.7 * thick_m;
-    float returned = thick / (1.0 + thick);
+    float side_m = cloud_side(thick_m, 1.0 / layer.grain.x);
+    CloudBox box = cloud_whole_box(layer, cloud_level(layer, max(side_m, lighting.width)), 0.5);
+    vec3 rise = lighting.up * side_m;
+    CloudAround around;
+    around.side = CLOUD_DIFFUSE_DEPTH * layer.grain.y * side_m;
+    around.whole = CLOUD_DIFFUSE_DEPTH * layer.grain.y * thick_m * cover;
+    around.above = cloud_coarse_density(layer, place + rise, cover, box);
+    around.below = cloud_coarse_density(layer, place - rise, cover, box);
     Shares shares;
-    float octave2 = OCTAVE_DEPTH * OCTAVE_DEPTH;
-    shares.sun = phases.x * exp(-depth) + OCTAVE_LIGHT * phases.y * exp(-OCTAVE_DEPTH * depth) +
-                 OCTAVE_LIGHT * OCTAVE_LIGHT * phases.z * exp(-octave2 * depth) +
-                 DIFFUSE / (4.0 * SHARED_PI) * (0.5 + 0.5 * sun_mu) * returned /
-                     (1.0 + CLOUD_DIFFUSE_DEPTH * depth);
-    // Radiance between two lit sides runs linearly with the depth.
-    float high = clamp(height, 0.0, 1.0);
-    shares.above = (1.0 + thick * high) / (2.0 + thick);
+    shares.sun = lighting.phases.x * exp(-depth - far) +
+                 cloud_several(around, lighting.phases.y, lighting.sun_mu, depth, far);
+    shares.above = cloud_from_above(around, height, lighting.view_mu);
     shares.below = 1.0 - shares.above;
     return shares;
 }

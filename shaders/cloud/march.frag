@@ -138,7 +138,8 @@ void main()
         ray.meets_ground = false;
         ray.end_m = max(ray.begin_m, ray.chord_m - u_eye.x * ray.mu);
     }
-    vec3 phases = phases_at(ray.nu);
+    Lighting lighting;
+    lighting.phases = vec2(cloud_phase(ray.nu, 1.0), cloud_phase(ray.nu, CLOUD_TURNED));
     vec2 four = spread_four();
     float pixel_rad = u_disc.z;
     float left = 1.0;       // transmittance of the clouds so far
@@ -185,7 +186,11 @@ void main()
                 cloud_whole_box(layer, cloud_level(layer, max(width, 0.25 * usual)), four.y);
             // At least a step, so that where nothing can be skipped no more is looked at.
             float border = max(layer.form.w, usual);
-            float rise = border * dot(up, ray.direction) / (layer.shell.y - layer.shell.x);
+            lighting.up = up;
+            lighting.sun_mu = sun_mu;
+            lighting.view_mu = dot(up, ray.direction);
+            lighting.width = width;
+            float rise = border * lighting.view_mu / (layer.shell.y - layer.shell.x);
             // Where steps are longer than what is in them varies, they would only make noise.
             float offset = 0.5 + (four.x - 0.5) * min(4.0 * texel / usual, 1.0);
             float s = weather > LEAST_COVER ? near : far;
@@ -241,7 +246,7 @@ void main()
                     break;
                 }
                 float at = depth_s / depth;
-                Shares shares = shares_at(layer, ray.direction * at, cover, sun_mu, phases, width);
+                Shares shares = shares_at(layer, ray.direction * at, cover, lighting);
                 float weight = left * (1.0 - exp(-depth));
                 sum.sun += shares.sun * weight;
                 sum.above += shares.above * weight;

@@ -149,11 +149,57 @@ SHARED_FN Number cloud_lobe(Number cos_angle, Number g)
 // turned back.
 #define CLOUD_DIFFUSE_DEPTH 0.128
 
+// What a few scatterings leave of the asymmetries.
+#define CLOUD_TURNED 0.8
+
 // `narrow` in [0, 1]: what further scatterings have left of both asymmetries.
 SHARED_FN Number cloud_phase(Number cos_angle, Number narrow)
 {
     return cloud_lobe(cos_angle, CLOUD_FORWARD_G * narrow) * (1.0 - CLOUD_BACK_SHARE) +
            cloud_lobe(cos_angle, CLOUD_BACK_G * narrow) * CLOUD_BACK_SHARE;
+}
+
+// The cloud around a place as two streams see it: diffuse depths of a side of the boxes that were
+// looked at, and of the layer's height at its cover, if they were full; and how full those above
+// and below are.
+SHARED_STRUCT(CloudAround)
+{
+    Number side, whole;
+    Number above, below;
+};
+
+// How far above and below a place, and how wide: of a layer of tiles of `scale`.
+SHARED_FN Length cloud_side(Length thickness, Length scale)
+{
+    return shared_min(0.25 * thickness, 0.03125 * scale);
+}
+
+// Light that was scattered more than once, toward the eye per irradiance of the star. A few
+// scatterings leave a peak, of `phase`, where there is enough cloud for them; after many, light
+// has no direction and falls as in two streams. What a level face gets, as in Eddington's
+// mu (2 + 3 mu) / (4 pi), is flattened as sides of clouds get more of a low star. `depth` is that
+// toward the star nearby, `far` that of other clouds. Numbers are those of tools/clouds.
+SHARED_FN Number cloud_several(CloudAround around, Number phase, Number sun_mu, Number depth,
+                               Number far)
+{
+    Number enough = 1.0 - exp(-36.3 * around.side * (0.1 + around.above + around.below));
+    Number few = 0.761 * phase * enough * exp(-0.135 * depth - 0.278 * far);
+    Number mu = shared_max(sun_mu, 0.02);
+    Number turned = around.side * (0.712 + 1.588 * around.below + 0.274 * around.above);
+    Number many = 0.458 * mu / (1.0 + 1.15 * mu) * turned / (1.0 + turned) /
+                  (1.0 + 0.0265 * depth) * exp(-0.0324 * far);
+    return few + many;
+}
+
+// The part of light from above in what two streams from above and below make of a place between
+// them; a view from below sees more of what is scattered forward from above.
+SHARED_FN Number cloud_from_above(CloudAround around, Number height, Number view_mu)
+{
+    Number high = shared_clamp(height, 0.0, 1.0);
+    Number over = 5.22 * around.side * around.above + 1.39 * around.whole * (1.0 - high);
+    Number under = 5.22 * around.side * around.below + 1.39 * around.whole * high;
+    Number tilt = exp(1.88 * view_mu);
+    return (tilt + under) / (tilt + 1.0 / tilt + over + under);
 }
 
 // A part of a step that is as dense all along, integrated: (1 - exp(-t)) / t, without cancellation.

@@ -56,33 +56,76 @@ static lanes expand_irradiance(const struct moments *m, int level, int sun, int 
     return lanes_max(sum, lanes_set(0));
 }
 
+struct light_place {
+    int level; // the moments' below
+    float part;
+    int sun;
+};
+
+static struct light_place place_of(const struct moments *m, double altitude_m, int sun)
+{
+    const double position = optics_shell(m->optics, altitude_m) * (m->levels - 1);
+    const int level = position < m->levels - 2 ? (int)position : m->levels - 2;
+    return (struct light_place){level, (float)(position - level), sun};
+}
+
 // The change with altitude of one side's expansion, times what it is at the ground.
-static void store_side(const struct atmosphere *a, int side, double highest_m, float *texels)
+static lanes side_light(const struct atmosphere *a, int side, struct light_place at)
 {
     const struct moments *m = &a->solution.moments;
-    for (int row = 0; row < GROUND_LIGHT_ALTITUDES; row++) {
-        const double shell = optics_shell(a->optics, altitude_of(row, highest_m));
-        const double position = shell * (m->levels - 1);
-        const int level = position < m->levels - 2 ? (int)position : m->levels - 2;
-        const float part = (float)(position - level);
-        for (int i = 0; i < m->suns; i++) {
-            const lanes below = expand_irradiance(m, level, i, side);
-            const lanes above = expand_irradiance(m, level + 1, i, side);
-            const lanes here = below + (above - below) * part;
-            const lanes base = lanes_max(expand_irradiance(m, 0, i, side), lanes_set(1e-30f));
-            lanes ground = m->irradiance[i];
-            if (side < 0) {
-                lanes star;
-                sunlight_ground_at(&a->solution.sun, moments_sun_mu(m, i), &star);
-                ground = (ground + star) * a->optics->ground_albedo;
-            }
-            const lanes light = ground * here / base;
-            float *texel = texels + ((size_t)row * (size_t)m->suns + i) * BAND_COUNT;
-            store(&a->bands, &light, texel);
-            for (int b = 0; b < BAND_COUNT; b++) {
-                texel[b] = logf(fmaxf(texel[b], 1e-30f));
-            }
+    const lanes below = expand_irradiance(m, at.level, at.sun, side);
+    const lanes above = expand_irradiance(m, at.level + 1, at.sun, side);
+    const lanes here = below + (above - below) * at.part;
+    const lanes base = lanes_max(expand_irradiance(m, 0, at.sun, side), lanes_set(1e-30f));
+    lanes ground = m->irradiance[at.sun];
+    if (side < 0) {
+        lanes star;
+        sunlight_ground_at(&a->solution.sun, moments_sun_mu(m, at.sun), &star);
+        ground = (ground + star) * a->optics->ground_albedo;
+    }
+    return ground * here / base;
+}
+
+// The mean radiance of all directions is the first moment.
+static lanes mean_radiance(const struct moments *m, struct light_place at)
+{
+    const int harmonics = harmonic_count(m->lmax);
+    const lanes *below =
+        m->radiance + ((size_t)at.level * (size_t)m->suns + (size_t)at.sun) * (size_t)harmonics;
+    const lanes *above = below + (size_t)m->suns * (size_t)harmonics;
+    double harmonic[(OPTICS_MAX_DEGREE + 1) * (OPTICS_MAX_DEGREE + 2) / 2];
+    harmonic_values(m->lmax, 1, harmonic);
+    return (below[0] + (above[0] - below[0]) * at.part) * (float)harmonic[0];
+}
+
+static lanes evenness(const struct atmosphere *a, struct light_place at)
+{
+    const lanes fluxes = side_light(a, 1, at) + side_light(a, -1, at);
+    return mean_radiance(&a->solution.moments, at) * (float)(2 * M_PI) /
+           lanes_max(fluxes, lanes_set(1e-30f));
+}
+
+// As logarithms.
+static void store_row(const struct atmosphere *a, double altitude_m, int side, float *texels)
+{
+    const struct moments *m = &a->solution.moments;
+    for (int i = 0; i < m->suns; i++) {
+        const struct light_place at = place_of(m, altitude_m, i);
+        const lanes light = side ? side_light(a, side, at) : evenness(a, at);
+        float *texel = texels + (size_t)i * BAND_COUNT;
+        store(&a->bands, &light, texel);
+        for (int b = 0; b < BAND_COUNT; b++) {
+            texel[b] = logf(fmaxf(texel[b], 1e-30f));
         }
+    }
+}
+
+// `side` 0 is for evenness.
+static void store_side(const struct atmosphere *a, int side, double highest_m, float *texels)
+{
+    for (int row = 0; row < GROUND_LIGHT_ALTITUDES; row++) {
+        const size_t size = (size_t)a->solution.moments.suns * BAND_COUNT;
+        store_row(a, altitude_of(row, highest_m), side, texels + (size_t)row * size);
     }
 }
 
@@ -94,4 +137,9 @@ void ground_light_of_sky(const struct atmosphere *a, double highest_m, float *te
 void ground_light_from_below(const struct atmosphere *a, double highest_m, float *texels)
 {
     store_side(a, -1, highest_m, texels);
+}
+
+void ground_light_evenness(const struct atmosphere *a, double highest_m, float *texels)
+{
+    store_side(a, 0, highest_m, texels);
 }

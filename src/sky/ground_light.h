@@ -19,4 +19,8 @@ void ground_light_of_sky(const struct atmosphere *atmosphere, double highest_m, 
 // The same of the light that rises there in the solved atmosphere, whose ground is the sphere.
 void ground_light_from_below(const struct atmosphere *atmosphere, double highest_m, float *texels);
 
+// Logarithm of the mean radiance of all directions but the star's, over the mean of what two even
+// halves of the sky with both irradiances have: above 1 where light comes from the horizon.
+void ground_light_evenness(const struct atmosphere *atmosphere, double highest_m, float *texels);
+
 #endif // SKY_GROUND_LIGHT_H
