@@ -14,8 +14,8 @@ _Static_assert((int)SKY_SEA_ANGLES == (int)VOLUME_ANGLES, "angles are the table'
 _Static_assert((int)SKY_SEA_ORDERS == (int)VOLUME_ORDERS, "orders are the table's");
 _Static_assert((int)SKY_SEA_WAVELENGTHS == (int)VOLUME_WAVELENGTHS, "wavelengths are the table's");
 
-// Where the eye sees most.
-static const double MIDDLE_NM = 555;
+// Of the table's wavelengths, and where the eye sees most.
+static const double MIDDLE_NM = 560;
 
 // Where the water's spectra are known.
 static const double FIRST_NM = 400, STEP_NM = 20;
@@ -24,7 +24,8 @@ static void store(const struct volume_table *table, const double spectrum[VOLUME
                   float *out)
 {
     for (int k = 0; k < VOLUME_WAVELENGTHS; k++) {
-        out[k] = (float)(spectrum[k] * M_PI / (table->index * table->index));
+        const double index = table->column[k].index;
+        out[k] = (float)(spectrum[k] * M_PI / (index * index));
     }
 }
 

@@ -172,7 +172,7 @@ static struct volume_table *describe(const trl_context *ctx, const struct ocean_
     struct volume_table *table = mem_alloc(ctx, 1, sizeof *table);
     if (table) {
         table->count = count;
-        // One index for all wavelengths: between 400 and 700 nm that of water changes by 0.9 %.
+        // One for the ways of all wavelengths: from 400 to 700 nm that of water changes by 0.9 %.
         table->index = water_refractive_index(&ocean->water, nm[count / 2]);
         table->critical = volume_refract(0, table->index);
     }
@@ -305,13 +305,14 @@ void volume_table_at(const struct volume_table *table, double depth_m,
     for (int m = 1; m < VOLUME_ORDERS; m++) {
         at.factor[m] = pow(sines_of(sun, seen), m) * cos(m * view->azimuth_rad);
     }
-    const double leaves = (1 - fresnel_reflectance(fabs(view->view_mu), table->index)) /
-                          (table->index * table->index);
+    const double passes = 1 - fresnel_reflectance(fabs(view->view_mu), table->index);
     const double enters = 1 - fresnel_reflectance(view->sun_mu, table->index);
     for (int k = 0; k < table->count; k++) {
         const struct cell d = depth_cell(table, k, depth_m, 1 / sun + 1 / seen);
         const double star[2] = {star_at(table, d.first, k, &at),
                                 star_at(table, d.first + 1, k, &at)};
+        // Radiance goes with the square of the index, of each wavelength its own.
+        const double leaves = passes / (table->column[k].index * table->column[k].index);
         out[k] = (struct volume_light){
             .star = leaves * enters * (star[0] + (star[1] - star[0]) * d.part),
             .sky = leaves * (sky_at(table, d.first, k, at.view) * (1 - d.part) +

@@ -4,12 +4,22 @@
 
 #include <math.h>
 
+// Relative to air, at 20 deg C, with 35 g of salt a kg and without: Quan and Fry 1995, Appl. Opt.
+// 34, Eq. 3; from 200 to 1100 nm by Huibers 1997, Appl. Opt. 36.
+static double clear_water_index(enum ocean_water_kind kind, double nm)
+{
+    const double celsius = 20, salt = kind == OCEAN_SEA ? 35 : 0;
+    const double l = fmax(200, fmin(nm, 1100));
+    const double of_salt = 1.779e-4 - 1.05e-6 * celsius + 1.6e-8 * celsius * celsius;
+    return 1.31405 + of_salt * salt - 2.02e-6 * celsius * celsius +
+           (15.868 + 0.01155 * salt - 0.00423 * celsius) / l - 4382 / (l * l) +
+           1.1455e6 / (l * l * l);
+}
+
 double water_refractive_index(const struct ocean_water *water, double nm)
 {
-    if (water->has_refractive_index) {
-        return spectrum_at(&water->refractive_index, nm);
-    }
-    return water->kind == OCEAN_SEA ? 1.340 : 1.334; // at 20 deg C and 35 g/kg, 589 nm, and without
+    return water->has_refractive_index ? spectrum_at(&water->refractive_index, nm)
+                                       : clear_water_index(water->kind, nm);
 }
 
 enum { TABLE_FIRST_NM = 380, TABLE_STEP_NM = 10, TABLE_COUNT = 43 };

@@ -358,7 +358,7 @@ static void pictures_have_the_colour_of_the_solution(void **state)
             sea_volume_at(volume, sea_depth_code(depths_m[i]), &rays, &light);
             sea_volume_rgb(volume, light.star, got.star);
             sea_volume_rgb(volume, light.sky, got.sky);
-            const double index = volume_column_make(&ocean, 1, 555).index;
+            const double index = volume_column_make(&ocean, 1, 560).index;
             const double leaves = 1 - fresnel_reflectance(0.8, index);
             for (int c = 0; c < 3; c++) {
                 got.star[c] *= leaves * (1 - fresnel_reflectance(view.sun_mu, index));
