@@ -24,7 +24,7 @@ SHARED_STRUCT(Relief)
 {
     Number height;
     Number x, y, z;                // its gradient
-    Number fall_x, fall_y, fall_z; // what gullies follow
+    Number fall_x, fall_y, fall_z; // what gullies follow; then the slope of what is no soil
     // Values of the octaves before, fading by a half: over ridges above 0, in valleys below. And
     // the gradient.
     Number past, past_x, past_y, past_z;
@@ -59,6 +59,27 @@ SHARED_FN Relief relief_of(Number height, Number x, Number y, Number z)
     return r;
 }
 
+// What it is so far is what lies on it knows.
+SHARED_FN Relief relief_stand(Relief r)
+{
+    r.fall_x = r.x;
+    r.fall_y = r.y;
+    r.fall_z = r.z;
+    return r;
+}
+
+// Adds a slope.
+SHARED_FN Relief relief_lean(Relief r, Number x, Number y, Number z)
+{
+    r.x += x;
+    r.y += y;
+    r.z += z;
+    r.fall_x += x;
+    r.fall_y += y;
+    r.fall_z += z;
+    return r;
+}
+
 SHARED_FN Number relief_smooth(Number low, Number high, Number x)
 {
     Number t = shared_clamp((x - low) / (high - low), 0.0, 1.0);
@@ -72,10 +93,10 @@ SHARED_FN Number relief_seen(Number log2_wave, Number log2_footprint)
     return relief_smooth(1.0, 2.0, log2_wave - log2_footprint);
 }
 
-// Part of an octave in the tone: all from 250 m on, little of what is small.
+// Part of an octave in the tone: all from 250 m on, half of what is small.
 SHARED_FN Number relief_tone(Number log2_wave)
 {
-    return shared_clamp(0.2 + 0.1 * log2_wave, 0.15, 1.0);
+    return shared_clamp(0.6 + 0.05 * log2_wave, 0.45, 1.0);
 }
 
 // How much of an octave data lack: all from two texels down, none above four.
@@ -162,6 +183,26 @@ SHARED_FN Relief relief_cut(Relief r, NoiseValue v, Number size)
     return r;
 }
 
+// Stones and soil make no slope: what lies on the ground knows that of waves longer than this, as
+// log2 of m.
+#define RELIEF_STAND_LOG2 1.0
+
+// Soil and gravel are rough whatever mountains are. Over lengths d from metres down natural ground
+// deviates by about d^0.6, with some degrees at 1 m (Shepard et al. 2001, J. Geophys. Res. 106,
+// 32777: Hurst exponents of 0.4 to 0.7, on Earth and Mars). `soil`: 1 on dry ground.
+#define RELIEF_SOIL_LOG2 6.0
+SHARED_FN Number relief_soil_size(Number size, Number log2_wave, Number soil)
+{
+    Number least = log2_wave > RELIEF_SOIL_LOG2 ? 0.0 : 0.05 * soil * exp2(0.6 * log2_wave);
+    return shared_max(size, least);
+}
+
+// Where mountains have an amplitude in m of nothing, water lies.
+SHARED_FN Number relief_soil(Number amplitude)
+{
+    return shared_min(0.2 * amplitude, 1.0);
+}
+
 // Heights know no more of a place than its direction: their octaves are drawn out down a cliff, by
 // 1 / cos(slope). From 35 to 55 degrees on rock has octaves of its own, of the place in space.
 SHARED_FN Number relief_rock(Number slope)
@@ -193,6 +234,51 @@ SHARED_FN RockNormal relief_rock_normal(RockNormal normal, NoiseValue n)
     r.y /= size;
     r.z /= size;
     return r;
+}
+
+// Stones are where an octave is above a level. About a high level the tops of a random surface of
+// deviation d and of slopes d_x along each axis are paraboloids, n = h (1 - r^2 d_x^2 / (2 d^2)):
+// here h (1 - 10 r^2), r in wavelengths. From waves of 1 m on stones are ever fewer, as the areas
+// that rocks of a size cover are (Golombek and Rapp 1997, J. Geophys. Res. 102, 4117, Eq. 2-4).
+// `stony`: -1 to 1.
+#define RELIEF_STONE_LOG2 2.0
+#define RELIEF_STONE_BEND (RELIEF_SLOPE2 / 3.0 / (2.0 * RELIEF_HEIGHT2))
+SHARED_FN Number relief_stone_level(Number log2_wave, Number stony)
+{
+    return 0.48 - 0.12 * stony + 0.06 * shared_max(log2_wave, 0.0);
+}
+
+// The paraboloid's top, where the noise is `value` and its slope, per wavelength, `slope`.
+SHARED_FN Number relief_stone_top(Number value, Number slope)
+{
+    Number more = slope * slope / RELIEF_STONE_BEND;
+    return 0.5 * (value + sqrt(value * value + more));
+}
+
+// And how far from it a value is, in wavelengths.
+SHARED_FN Number relief_stone_from(Number value, Number top)
+{
+    return sqrt(shared_max(1.0 - value / top, 0.0) / RELIEF_STONE_BEND);
+}
+
+// Height of a stone for each of the noise's above the level, in wavelengths, and of a flat one.
+#define RELIEF_STONE_HIGH 1.1
+#define RELIEF_STONE_HIGHEST 0.18
+
+// The part of the ground that is above a level: the tail of a normal distribution (Bowling et al.
+// 2009, J. Ind. Eng. Manag. 2, 114), of the noise's deviation.
+SHARED_FN Number relief_stone_cover(Number level)
+{
+    Number x = level / sqrt(RELIEF_HEIGHT2);
+    return 1.0 / (1.0 + exp(x * (1.5976 + 0.070566 * x * x)));
+}
+
+// What a wall of a height takes of an even sky's light on level ground at a distance: of half the
+// azimuths all below its top, (1 - cos(e)) / 2.
+SHARED_FN Number relief_wall(Number high, Number away)
+{
+    Number from = shared_max(away, 0.0);
+    return 0.5 - 0.5 * from / sqrt(from * from + high * high);
 }
 
 #endif // SHARED_RELIEF_GLSL

@@ -12,7 +12,7 @@
 #ifdef SURFACE
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
 uniform sampler2D u_albedo;   // square root of linear sRGB
-uniform sampler2D u_normal;   // xyz unit; w how much of the star terrain leaves
+uniform sampler2D u_normal;   // a normal, and how much of the star is left: terrain/compose.h
 // Square root of linear sRGB; a: where there is water its depth, else root of the star's light
 // around.
 uniform sampler2D u_lights;
@@ -105,7 +105,7 @@ Ground find_ground(out Ray ray)
     vec4 lights = texelFetch(u_lights, ivec2(gl_FragCoord.xy), 0);
     ground.distance_m = distance_m;
     ground.altitude_m = position.w;
-    ground.normal = normal.xyz;
+    ground.normal = normal.xyz * inversesqrt(max(dot(normal.xyz, normal.xyz), 1.0e-6));
     float shade = cloud_shade(distance_m);
     ground.star_visible = normal.w * shade;
     ground.star_direct = cloud_direct(shade);

@@ -39,8 +39,7 @@ NoiseBase ground_base(Tangent t, float quad_footprint, float known_height)
     b.slope = slope.xyz;
     float dry = ground_dry(t);
     b.spread = dry * (g.spread.x * t.east + g.spread.y * t.north);
-    b.view = NoiseView(t.log2_footprint, slope.w, data, g.map.y * dry, g.map.z);
-    b.climate = g.map.w;
+    b.view = NoiseView(t.log2_footprint, slope.w, data, g.map.y * dry, g.map.z, g.map.w);
     return b;
 }
 

@@ -8,9 +8,10 @@
 struct Look {
     vec3 root; // square root of the albedo
     float water;
-    float depth; // of the water, as a code of shared/sea.glsl
-    vec3 normal; // local axes
-    vec3 region; // square root of the albedo of the region around
+    float depth;     // of the water, as a code of shared/sea.glsl
+    vec3 normal;     // local axes
+    vec3 region;     // square root of the albedo of the region around
+    float open, lit; // what stones leave of an even sky, and of the sun
 };
 
 // The direction less the anchor's; log2 of a footprint that is one for 2 x 2 pixels; altitude in m.
@@ -66,19 +67,40 @@ vec3 look_region(vec3 root, Tangent t, float made_sea)
 }
 
 #ifdef HAS_NOISE
+const float LOOK_STONE_STEEP = 1.2; // slope of ground whose colour stones have
+const float LOOK_STONE_CLEAN = 0.6; // the part of it that dust and lichens leave
+
 // Linear albedo of rock, and how much of its colour is that of the pictures, where that is no
-// brighter; tangents of the slopes from which, and above which, it is bare.
+// brighter; tangents of the slopes from which, and above which, it is bare, and 1 where it is told.
 uniform vec4 u_rock;
 uniform vec4 u_rock_slopes;
 
-// Snow and soil slide off what is steeper than their angle of repose, and leave rock. Square roots.
-// What is too steep or too flat to be seen counts by its spread.
-vec3 look_weathered(vec3 root, float tone, float slope, float spread)
+const vec3 LOOK_LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
+
+// Where stones lie bare: not in water, on cliffs, and below what is brighter than soil, as snow and
+// salt are.
+float look_bare(vec3 albedo, float water)
 {
-    const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
+    float bright = smoothstep(0.4, 0.7, dot(albedo, LOOK_LUMINANCE));
+    return (1.0 - water) * (1.0 - bright) * (1.0 - rock.part);
+}
+
+// Ground with stones: their mean is what the ground has from afar.
+vec3 look_stony(vec3 ground, vec3 stone, float bare)
+{
+    float cover = bare * stones.cover;
+    vec3 soil = max((ground - cover * stone) / (1.0 - cover), 0.6 * ground);
+    return mix(soil, stone, bare * stones.part);
+}
+
+// Snow and soil slide off what is steeper than their angle of repose, and leave rock, as of stones.
+// Square roots. What is too steep or too flat to be seen counts by its spread.
+vec3 look_weathered(vec3 root, float tone, float slope, float spread, float bare)
+{
     vec3 c = root * root;
-    vec3 tinted = c * min(1.0, dot(u_rock.rgb, LUMINANCE) / max(dot(c, LUMINANCE), 1e-3));
+    vec3 tinted = c * min(1.0, dot(u_rock.rgb, LOOK_LUMINANCE) / max(dot(c, LOOK_LUMINANCE), 1e-3));
     vec3 rock = mix(u_rock.rgb, tinted, u_rock.a);
+    c = look_stony(c, mix(c, rock, LOOK_STONE_CLEAN * u_rock_slopes.z), bare);
     c = mix(c, rock, smoothstep(u_rock_slopes.x - spread, u_rock_slopes.y + spread, slope));
     float paler = max(1.0 + u_noise_more.z * tone, 0.1);
     return sqrt(
@@ -92,6 +114,37 @@ float look_sea(float height, float slope2, float footprint)
     return clamp(0.5 - (height - u_noise_form.w) / shore, 0.0, 1.0);
 }
 
+#ifdef HAS_BIOMES
+// Linear albedo of a place, the region around, which is its own where a pixel is larger, and of
+// stones, which is that of steep ground.
+void look_biomes(BiomePlace place, Relief r, float log2_footprint, inout vec3 albedo,
+                 inout vec3 region, inout vec3 stone)
+{
+    float steep = place.place.y;
+    place.slope_spread = sqrt(r.unseen);
+    place.height_spread = sqrt(r.unseen_height2);
+    // A loop, since a branch would cost as much.
+    int last = stones.cover > 0.0 ? 3 : log2_footprint < u_region ? 2 : 1;
+    for (int k = 0; k < last; k++) {
+        place.tone = k == 1 ? 0.0 : r.tone;
+        place.place.y = k == 2 ? max(steep, LOOK_STONE_STEEP) : steep;
+        stone = biome_albedo(u_default_albedo, place);
+        albedo = k == 0 ? stone : albedo;
+        region = k < 2 ? stone : region;
+    }
+}
+#endif
+
+// With stones, and what is too small for heights where it is steep.
+vec3 look_normal(vec3 up, vec3 slope, float dry, float bare)
+{
+    vec3 n = normalize(up - dry * slope - bare * stones.slope);
+    RockNormal rough =
+        relief_rock_normal(RockNormal(n.x, n.y, n.z),
+                           NoiseValue(0.0, dry * rock.sum.x, dry * rock.sum.y, dry * rock.sum.z));
+    return vec3(rough.x, rough.y, rough.z);
+}
+
 Look find_look(Tangent t, LookPlace p)
 {
     NoiseBase base = ground_base(t, p.quad_footprint, p.altitude);
@@ -100,13 +153,15 @@ Look find_look(Tangent t, LookPlace p)
     Relief r = noise_compose(base, p.at * u_anchor.w, t.up);
     vec3 slope = terrain_slope(vec4(r.x, r.y, r.z, base.view.texel), t).xyz;
     slope -= t.up * dot(slope, t.up);
-    float steep = length(slope);
+    vec3 standing = slope - vec3(r.x - r.fall_x, r.y - r.fall_y, r.z - r.fall_z);
+    float steep = length(standing - t.up * dot(standing, t.up));
     Look look;
     vec3 water = terrain_water(t.ground, t.log2_footprint);
     look.water = look_shore(water, t, LookGround(length(base.slope), base.view.texel, r.shore));
     look.depth = look_shore_depth(water, base.view.texel);
     vec3 albedo = u_default_albedo;
     vec3 region = u_default_albedo;
+    vec3 stone = u_default_albedo;
     float sea = 0.0;
 #ifdef HAS_GROUND
     sea = look_sea(r.height, steep * steep + r.unseen, exp2(t.log2_footprint));
@@ -115,20 +170,16 @@ Look find_look(Tangent t, LookPlace p)
 #endif
     look.water = max(look.water, sea);
 #endif
-    r.tone += (1.0 - look.water) * (rock.sum.value - 0.5 * rock.part * r.tone);
+    float dry = 1.0 - look.water;
+    r.tone += dry * (rock.sum.value - 0.5 * rock.part * r.tone);
 #ifdef HAS_BIOMES
     BiomePlace place =
-        biome_place(r.height - r.passing, steep, u_anchor.z + t.ground.geo.y, base.climate);
-    place.tone = r.tone;
-    place.slope_spread = sqrt(r.unseen);
-    place.height_spread = sqrt(r.unseen_height2);
-    // A loop, since a branch would cost as much: the region is the pixel's own where that is
-    // larger.
-    for (int k = 0; k < (t.log2_footprint < u_region ? 2 : 1); k++) {
-        region = biome_albedo(u_default_albedo, place);
-        albedo = k == 0 ? region : albedo;
-        place.tone = 0.0;
-    }
+        biome_place(r.height - r.passing, steep, u_anchor.z + t.ground.geo.y, base.view.climate);
+    look_biomes(place, r, t.log2_footprint, albedo, region, stone);
+#endif
+#ifdef HAS_GROUND
+    float bare = look_bare(region, look.water);
+    albedo = look_stony(albedo, mix(region, stone, LOOK_STONE_CLEAN), bare);
 #endif
 #ifdef HAS_COVERS
     float variance = noise_height_variance(base.view);
@@ -145,15 +196,12 @@ Look find_look(Tangent t, LookPlace p)
         terrain_albedo(sqrt(clamp(region, 0.0, 1.0)), t.ground, max(t.log2_footprint, u_region));
     look.region = look_region(look.region, t, sea);
 #ifndef HAS_GROUND
-    float land = 1.0 - look.water;
-    look.root = look_weathered(look.root, land * r.tone, land * steep, land * sqrt(r.unseen));
+    float bare = look_bare(look.region * look.region, look.water);
+    look.root = look_weathered(look.root, dry * r.tone, dry * steep, dry * sqrt(r.unseen), bare);
 #endif
-    look.normal = normalize(t.up - (1.0 - look.water) * slope);
-    RockNormal smooth_normal = RockNormal(look.normal.x, look.normal.y, look.normal.z);
-    float dry = 1.0 - look.water;
-    RockNormal rough = relief_rock_normal(
-        smooth_normal, NoiseValue(0.0, dry * rock.sum.x, dry * rock.sum.y, dry * rock.sum.z));
-    look.normal = vec3(rough.x, rough.y, rough.z);
+    look.open = mix(1.0, stones.open, bare);
+    look.lit = mix(1.0, stones.lit, bare);
+    look.normal = look_normal(t.up, slope, dry, bare);
     return look;
 }
 #else
@@ -168,6 +216,6 @@ Look find_look(Tangent t, LookPlace p)
     vec3 region = terrain_albedo(root, t.ground, max(t.log2_footprint, u_region));
     return Look(terrain_albedo(root, t.ground, t.log2_footprint), part,
                 look_shore_depth(water, slope.w), normalize(t.up - slope.xyz),
-                look_region(region, t, 0.0));
+                look_region(region, t, 0.0), 1.0, 1.0);
 }
 #endif

@@ -128,11 +128,11 @@ NoiseValue noise_local(NoiseValue n, int i)
 }
 
 // What octaves see: log2 of the footprint and of the data's texel, between layers and for each;
-// amplitude in m; how ridged.
+// amplitude in m; how ridged; climate, -1 dry to 1 wet.
 struct NoiseView {
     float footprint, texel;
     ReliefData data;
-    float amplitude, ridged;
+    float amplitude, ridged, climate;
 };
 
 float pow2(float x)
@@ -140,10 +140,16 @@ float pow2(float x)
     return x * x;
 }
 
-// Of the whole octave; what is seen of it is apart.
+// Of the whole octave, without soil; what is seen of it is apart.
 float noise_size(int i, NoiseView view)
 {
     return view.amplitude * u_noise_size[i].y * relief_lacking_of(u_noise_size[i].x, view.data);
+}
+
+// The part of an octave that soil has.
+float noise_soil(int i, NoiseView view)
+{
+    return relief_soil(view.amplitude) * relief_lacking_of(u_noise_size[i].x, view.data);
 }
 
 // Also where there is nothing to see: on the sea, and on the floor of oceans.
@@ -170,7 +176,8 @@ float noise_height_variance(NoiseView view)
 Relief noise_hide(Relief r, int i, float size, float before, NoiseView view)
 {
     float seen = pow2(relief_seen(u_noise_size[i].x, view.footprint));
-    r.unseen += RELIEF_SLOPE2 * pow2(size * u_noise_place[i].w) * (1.0 - seen);
+    float stands = u_noise_size[i].x > RELIEF_STAND_LOG2 ? 1.0 - seen : 0.0;
+    r.unseen += RELIEF_SLOPE2 * pow2(size * u_noise_place[i].w) * stands;
     // Of a wave that is seen, its mean over a square keeps sinc^4: heights differ within a pixel.
     float within = 6.6 * pow2(exp2(view.footprint) * u_noise_place[i].w);
     float kept = max(1.0 - within, 0.0);
@@ -180,6 +187,8 @@ Relief noise_hide(Relief r, int i, float size, float before, NoiseView view)
 }
 
 #ifdef HAS_ROCK
+#include "terrain/stones.glsl"
+
 // What rock is seen from, and what its octaves sum up to: gradient times size, and a tone.
 struct Rock {
     vec3 ray;         // unit
@@ -190,18 +199,24 @@ struct Rock {
 
 Rock rock;
 
-void rock_begin(float slope, vec3 normal)
+// log2 of the footprint on ground of a slope: a cliff at the height of the eye is seen from the
+// front. It is longer than wide, and the middle of both is taken.
+float rock_footprint(vec3 up, vec3 slope)
+{
+    float slant = max(abs(dot(rock.ray, normalize(up - slope))), 0.02);
+    return rock.log2_pixel - 0.5 * log2(slant);
+}
+
+void rock_begin(float slope)
 {
     rock.part = relief_rock(slope);
     rock.sum = NoiseValue(0.0, 0.0, 0.0, 0.0);
-    // A cliff at the height of the eye is seen from the front.
-    rock.log2_pixel -= 0.5 * log2(max(abs(dot(rock.ray, normal)), 0.02));
 }
 
 void rock_add(int i, NoiseValue n, NoiseView view)
 {
     float wave = u_noise_size[i].x;
-    float seen = rock.part * relief_seen(wave, rock.log2_pixel);
+    float seen = rock.part * relief_seen(wave, view.footprint);
     float size =
         seen * relief_rock_size(noise_size(i, view), wave) * relief_lacking_of(wave, view.data);
     rock.sum.value += seen * relief_tone(wave) * n.value;
@@ -221,16 +236,19 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
 #endif
     int i = 0;
     int end = 0;
+#ifdef HAS_ROCK
+    stones_begin(up, view.climate);
+#endif
     for (int part = 0; part < parts; part++) {
-        vec3 left = vec3(r.x, r.y, r.z);
+        vec3 left = vec3(r.fall_x, r.fall_y, r.fall_z);
         left -= up * dot(left, up);
         r.cutting = relief_cutting(dot(left, left));
         int last = part == 0 ? u_noise_ends.x : u_noise_ends.z;
 #ifdef HAS_ROCK
+        view.footprint = rock_footprint(up, left);
         if (part == 2) {
-            rock_begin(length(left), normalize(up - left));
+            rock_begin(length(left));
             at += r.height * up;
-            view.footprint = rock.log2_pixel;
             i = u_noise_ends.w;
             last = rock.part > 0.0 ? last : 0;
         }
@@ -243,20 +261,25 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
                 continue;
             }
 #endif
-            float size = noise_size(i, view);
-            float seen = relief_seen(u_noise_size[i].x, view.footprint);
-            size *= part == 0 ? 1.0 : mix(u_noise_more.x, 1.0, r.cutting);
+            float wave = u_noise_size[i].x;
+            float soil = noise_soil(i, view);
+            float rough = part == 0 ? 1.0 : mix(u_noise_more.x, 1.0, r.cutting);
+            float size = relief_soil_size(noise_size(i, view) * rough, wave, soil);
+            float seen = relief_seen(wave, view.footprint);
             float before = r.height;
+#ifdef HAS_ROCK
+            if (wave < RELIEF_STONE_LOG2) {
+                stones_add(n, wave, view.footprint, r.past, soil);
+            }
+#endif
             r = relief_add(r, relief_fold(n, view.ridged), size * seen, u_noise_form.x);
             float value = size > 0.0 ? seen * n.value : 0.0;
-            r.tone += value * relief_tone(u_noise_size[i].x);
+            r.tone += value * relief_tone(wave);
             r.shore += value / u_noise_place[i].w;
             r = noise_hide(r, i, size, before, view);
+            r = wave > RELIEF_STAND_LOG2 ? relief_stand(r) : r;
         }
         end = part == 2 ? end : i;
-        r.fall_x = r.x;
-        r.fall_y = r.y;
-        r.fall_z = r.z;
         for (; part == 0 && !noise_is_over(i, u_noise_ends.y, view); i++) {
             vec3 s = vec3(r.fall_x, r.fall_y, r.fall_z);
             s -= up * dot(s, up);
@@ -271,6 +294,7 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
             r = relief_cut(r, n, size * seen);
             r = noise_hide(r, i, size, before, view);
         }
+        r = part == 0 && i > end ? relief_stand(r) : r;
     }
     float below = pow2(view.amplitude) * (end < u_noise_ends.z ? 1.0 : 0.0);
     int next = min(end, u_noise_ends.z - 1);
@@ -285,7 +309,6 @@ struct NoiseBase {
     vec3 slope; // local axes
     vec3 spread;
     NoiseView view;
-    float climate;
 };
 
 // Everything: `base` with octaves, before water.
@@ -296,8 +319,5 @@ Relief noise_compose(NoiseBase base, vec3 at, vec3 up)
     Relief r = relief_of(base.height, base.slope.x, base.slope.y, base.slope.z);
     r = noise_relief(r, at, up, base.view);
     vec3 spread = base.spread * ((r.height - base.height) / max(amplitude, 1e-6));
-    r.x += spread.x;
-    r.y += spread.y;
-    r.z += spread.z;
-    return r;
+    return relief_lean(r, spread.x, spread.y, spread.z);
 }

@@ -219,14 +219,17 @@ void main()
     // 1 - cosine without cancellation.
     vec3 at = vec3(up.xy, -dot(up.xy, up.xy) / (1.0 + up.z));
     Tangent tangent = tangent_at(at, geo, log2_footprint);
+#ifdef HAS_NOISE
+    stones.sun = u_local_from_planet * (u_shadow_toward * u_shadow_from_planet);
+#endif
     Look look = find_look(
         tangent, LookPlace(at, quad_footprint, p.w, local / max(distance_m, 1e-3), log2_pixel));
 
     float is_ground = p.w > -1e8 ? 1.0 : 0.0;
     o_albedo_water = is_ground * vec4(look.root, look.water);
-    float sun = terrain_sun_visibility(p.xyz, p.w);
+    float sun = look.lit * terrain_sun_visibility(p.xyz, p.w);
     // A row times a matrix: the transpose turns local axes back into the planet's.
-    o_normal_sun = is_ground * vec4(look.normal * u_local_from_planet, sun);
+    o_normal_sun = is_ground * vec4(look.open * look.normal * u_local_from_planet, sun);
 #ifdef HAS_DEPTH
     float depth = u_sea_depth < 0.0 ? look.depth : u_sea_depth;
 #else

@@ -109,7 +109,8 @@ static void bind_rock(const struct surface_rock *rock, struct gpu_program *progr
     const bool is_there = rock->slopes[1] > 0;
     const float colour[4] = {rock->albedo[0], rock->albedo[1], rock->albedo[2], (float)rock->tint};
     const float slopes[4] = {is_there ? (float)rock->slopes[0] : NO_SLOPE,
-                             is_there ? (float)rock->slopes[1] : 2 * NO_SLOPE, 0, 0};
+                             is_there ? (float)rock->slopes[1] : 2 * NO_SLOPE,
+                             is_there ? 1.0f : 0.0f, 0};
     gpu_program_set_vec4(program, "u_rock", colour);
     gpu_program_set_vec4(program, "u_rock_slopes", slopes);
 }

@@ -32,8 +32,9 @@ struct terrain_compose_inputs {
 
 // Draws all of `target`, of the position's size:
 // color 0, RGBA8: square root of the linear albedo, and the part of it that is water;
-// color 1, RGBA16F or RGBA32F: unit normal in the planet frame, and the part of the sun that the
-// terrain leaves visible (not the planet's curve, not the air);
+// color 1, RGBA16F or RGBA32F: normal in the planet frame, as long as the part of an even sky that
+// stones leave, and the part of the sun that they and the terrain do (not the planet's curve, not
+// the air);
 // color 2, RGBA8: square root of the night lights, linear, 1 where the picture is white; alpha 0 on
 // land, on open water 1, or its depth by shared/sea.glsl, where the surface tells it.
 // color 3, RGBA8, where there is one: square root of the albedo of the region around; alpha 0.

@@ -183,6 +183,13 @@ double surface_half_texel_m(const struct surface *surface, struct vec3 direction
     return 0.5 * finest;
 }
 
+// The slope without that of soil.
+static struct vec3 stand_of(const Relief *r, struct vec3 up)
+{
+    const struct vec3 gradient = {r->fall_x, r->fall_y, r->fall_z};
+    return vec3_sub(gradient, vec3_scale(up, vec3_dot(gradient, up)));
+}
+
 // Of the relief with its octaves, by their gradients: what the GPU shades.
 static struct vec3 find_made_normal(const struct surface *surface, struct vec3 up)
 {
@@ -193,7 +200,7 @@ static struct vec3 find_made_normal(const struct surface *surface, struct vec3 u
     }
     const struct vec3 gradient = {r.x, r.y, r.z};
     const struct vec3 slope = vec3_sub(gradient, vec3_scale(up, vec3_dot(gradient, up)));
-    const struct noise_stand stand = {r.height, vec3_length(slope),
+    const struct noise_stand stand = {r.height, vec3_length(stand_of(&r, up)),
                                       vec3_normalize(vec3_sub(up, slope))};
     return noise_rock_normal(&surface->noise, &place, &stand);
 }
@@ -206,10 +213,8 @@ bool surface_biomes(const struct surface *surface, struct vec3 direction, double
     const struct vec3 up = vec3_normalize(direction);
     struct noise_place place;
     const Relief r = surface_relief(surface, up, &place);
-    const struct vec3 gradient = {r.x, r.y, r.z};
-    const struct vec3 slope = vec3_sub(gradient, vec3_scale(up, vec3_dot(gradient, up)));
     const struct biome_place at = {.altitude_m = r.height,
-                                   .slope = vec3_length(slope),
+                                   .slope = vec3_length(stand_of(&r, up)),
                                    .latitude_rad = asin(fmax(-1, fmin(1, up.z))),
                                    .moisture = place.ground.climate,
                                    .tone = r.tone};

@@ -175,16 +175,16 @@ static Relief add_noise(const struct terrain_noise *noise, const struct noise_pl
         noise_simplex(find_place(noise, i, vec3_scale(place->up, noise->radius_m)));
     const double log2_wave = noise->log2_wave[i];
     const double seen = relief_seen(log2_wave, place->log2_footprint);
-    double size = g->amplitude_m * noise->size[i] * relief_lacking_of(log2_wave, place->data);
-    if (i >= noise->ends[1]) {
-        const double level = noise->desc.level_roughness;
-        size *= level + (1 - level) * r.cutting;
-    }
+    const double lacking = relief_lacking_of(log2_wave, place->data);
+    const double level = i < noise->ends[1] ? 1 : noise->desc.level_roughness;
+    const double rough = level + (1 - level) * r.cutting;
+    const double size = relief_soil_size(g->amplitude_m * noise->size[i] * lacking * rough,
+                                         log2_wave, relief_soil(g->amplitude_m) * lacking);
     r = relief_add(r, relief_fold(turn_back(noise, i, n), g->ridged), size * seen, CONTRAST);
     const double value = size > 0 ? seen * n.value : 0;
     r.tone += value * relief_tone(log2_wave);
     r.shore += value * noise->wave_m[i];
-    return r;
+    return log2_wave > RELIEF_STAND_LOG2 ? relief_stand(r) : r;
 }
 
 static Relief add_gullies(const struct terrain_noise *noise, const struct noise_place *place, int i,
@@ -220,22 +220,15 @@ Relief noise_relief_at(const struct terrain_noise *noise, const struct noise_pla
             break;
         }
         const bool is_gully = i >= noise->ends[0] && i < noise->ends[1];
-        if (i == noise->ends[0]) {
-            r.fall_x = r.x;
-            r.fall_y = r.y;
-            r.fall_z = r.z;
-        }
         if (i == noise->ends[1]) {
+            r = i > noise->ends[0] ? relief_stand(r) : r;
             const struct vec3 slope = slope_of(&r, p.up);
             r.cutting = relief_cutting(vec3_dot(slope, slope));
         }
         r = is_gully ? add_gullies(noise, &p, i, r) : add_noise(noise, &p, i, r);
     }
     const double made = (r.height - g->height_m) / fmax(g->amplitude_m, 1e-6);
-    r.x += g->spread.x * made;
-    r.y += g->spread.y * made;
-    r.z += g->spread.z * made;
-    return r;
+    return relief_lean(r, g->spread.x * made, g->spread.y * made, g->spread.z * made);
 }
 
 static int first_of_rock(const struct terrain_noise *noise)

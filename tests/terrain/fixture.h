@@ -79,6 +79,14 @@ struct composed {
 struct composed fixture_compose_middle(const struct fixture *f, const struct surface *surface,
                                        const struct camera *camera);
 
+// And all of them, bottom row first. Free both with mem_free.
+struct composed_picture {
+    uint8_t *albedo_water;
+    float *normal_sun;
+};
+struct composed_picture fixture_compose(const struct fixture *f, const struct surface *surface,
+                                        const struct camera *camera);
+
 // Unit direction of a pixel's middle.
 struct vec3 fixture_ray(const struct camera *camera, int x, int y);
 

@@ -378,9 +378,11 @@ static void test_detail_stays_in_its_place_and_is_gone_from_afar(void **state)
     place.pitch = -atan2(1000, 100) / DEGREE;
     camera = fixture_camera(&place);
     c = fixture_compose_middle(f, &s, &camera);
-    // Pixels of 5 m are slanted by half a percent and their middles displaced by centimetres.
+    // Pixels of 2 m have their middles displaced by centimetres, and on slopes of a third are some
+    // percent longer or shorter, which is as much of the waves that begin to be seen. What is at
+    // another place differs by more than itself.
     const double moved = vec3_length(vec3_sub(lean(&c, 40), above)) / vec3_length(above);
-    if (!(moved < 0.1)) {
+    if (!(moved < 0.2)) {
         fail_msg("leans by another %.3f", moved);
     }
     assert_in_range(c.albedo_water[0], albedo - 1, albedo + 1);

@@ -7,11 +7,12 @@ static const double DEGREE = 3.14159265358979323846 / 180;
 void planet_make(struct fixture *f, planet_heights *globe, planet_heights *inset,
                  struct planet *out)
 {
-    planet_make_detailed(f, globe, inset, 0, out);
+    const struct surface_detail none = {.roughness = 0};
+    planet_make_detailed(f, globe, inset, &none, out);
 }
 
 void planet_make_detailed(struct fixture *f, planet_heights *globe, planet_heights *inset,
-                          double smallest_m, struct planet *out)
+                          const struct surface_detail *detail, struct planet *out)
 {
     char paths[2][128];
     const struct raster_place everywhere = {-180, 90, 0.5, 720, 360};
@@ -27,8 +28,7 @@ void planet_make_detailed(struct fixture *f, planet_heights *globe, planet_heigh
     desc.radius_m = PLANET_RADIUS_M;
     desc.layer_count = inset ? 2 : 1;
     desc.layers = layers;
-    desc.detail =
-        (struct surface_detail){.roughness = smallest_m > 0 ? 1 : 0, .smallest_m = smallest_m};
+    desc.detail = *detail;
     *out = (struct planet){.f = f};
     assert_int_equal(surface_init(f->gpu, &desc, &out->relief.surface), TRL_OK);
     assert_int_equal(terrain_ceiling_init(&out->relief.surface, &out->relief.ceiling), TRL_OK);

@@ -24,9 +24,9 @@ typedef double planet_heights(double latitude_deg, double longitude_deg);
 // of half a degree, 8.7 km.
 void planet_make(struct fixture *f, planet_heights *globe, planet_heights *inset,
                  struct planet *out);
-// With relief that is made up below the texels, down to waves of `smallest_m`; 0: none.
+// With relief that is made up below the texels.
 void planet_make_detailed(struct fixture *f, planet_heights *globe, planet_heights *inset,
-                          double smallest_m, struct planet *out);
+                          const struct surface_detail *detail, struct planet *out);
 // False: this GL has not what the mesher needs.
 bool planet_use(struct planet *planet, trl_mesher mesher);
 void planet_destroy(struct planet *planet);
