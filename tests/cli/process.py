@@ -133,6 +133,36 @@ def read_png(path):
     return width, height, unfilter(zlib.decompress(packed), width * channels, channels)
 
 
+def read_exr_luminance(path):
+    """Rows of luminances of one of the program's OpenEXR files: 32-bit floats, packed by zip."""
+    data = pathlib.Path(path).read_bytes()
+    where = data.index(b"dataWindow\0box2i\0") + 21
+    left, top, right, bottom = struct.unpack("<4i", data[where:where + 16])
+    width, height = right - left + 1, bottom - top + 1
+    channels = "ABGR" if b"A\0" in data[data.index(b"chlist"):][:16] else "BGR"
+    # Names and values of attributes end with an empty name; then come the places of blocks of 16 rows.
+    at = 8
+    while data[at]:
+        at = data.index(0, data.index(0, at) + 1) + 1
+        at += 4 + struct.unpack("<I", data[at:at + 4])[0]
+    rows = []
+    for (place,) in struct.iter_unpack("<Q", data[at + 1:at + 1 + 8 * -(-height // 16)]):
+        y, size = struct.unpack("<iI", data[place:place + 8])
+        raw = data[place + 8:place + 8 + size]
+        count = min(16, height - y)
+        if size < 4 * len(channels) * width * count:
+            packed = bytearray(zlib.decompress(raw))
+            for i in range(1, len(packed)):
+                packed[i] = (packed[i - 1] + packed[i] - 128) & 255
+            raw = bytearray(len(packed))
+            raw[0::2], raw[1::2] = packed[:(len(packed) + 1) // 2], packed[(len(packed) + 1) // 2:]
+        for row in range(count):
+            line = struct.unpack_from(f"<{len(channels) * width}f", raw, 4 * len(channels) * width * row)
+            blue, green, red = (line[i * width:(i + 1) * width] for i in map(channels.index, "BGR"))
+            rows.append([0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in zip(red, green, blue)])
+    return rows
+
+
 def predict_paeth(left, above, corner):
     estimate = left + above - corner
     distances = [(abs(estimate - left), left), (abs(estimate - above), above),
