@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// A cache for all tests of the process: the air of a scene that several of them draw is solved once.
+// For all tests of the process: the air of a scene that several of them draw is solved once.
 static char cache[] = "/tmp/terrella-frame-XXXXXX";
 
 static void remove_cache(void)
