@@ -273,12 +273,16 @@ SHARED_FN Number relief_stone_cover(Number level)
     return 1.0 / (1.0 + exp(x * (1.5976 + 0.070566 * x * x)));
 }
 
-// What a wall of a height takes of an even sky's light on level ground at a distance: of half the
-// azimuths all below its top, (1 - cos(e)) / 2.
-SHARED_FN Number relief_wall(Number high, Number away)
+// What a stone, high * (1 - r^2 / radius^2), takes of an even sky's light on level ground `from`
+// its middle. Its tangent from there rises by `steep`; at the foot, where that is the stone's own
+// slope, the ground has lost as much as the stone, (1 - cos e) / 2. Farther off fewer azimuths are
+// lost: the power is fitted, to 0.02.
+SHARED_FN Number relief_stone_hides(Number high, Number radius, Number from)
 {
-    Number from = shared_max(away, 0.0);
-    return 0.5 - 0.5 * from / sqrt(from * from + high * high);
+    Number reach = shared_max(radius, 1e-6);
+    Number away = shared_max(from / reach, 1.0);
+    Number steep = 2.0 * high / reach * (away - sqrt(away * away - 1.0));
+    return (0.5 - 0.5 / sqrt(1.0 + steep * steep)) / (away * sqrt(away));
 }
 
 #endif // SHARED_RELIEF_GLSL

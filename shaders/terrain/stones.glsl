@@ -76,6 +76,8 @@ void stones_add(NoiseValue n, float log2_wave, float log2_footprint, float past,
 
     // About its foot, as far as the octave tells where it is.
     float near = (seen - part) * (1.0 - smoothstep(0.25, 0.35, stone.from / wave));
-    stones.open *= 1.0 - near * relief_wall(stone.high, stone.from - stone.radius);
+    // Its shade under a sky goes before it does: a pixel across, it would be a ring.
+    float wide = relief_seen(log2_wave - 2.0, log2_footprint);
+    stones.open *= 1.0 - wide * near * relief_stone_hides(stone.high, stone.radius, stone.from);
     stones.lit *= mix(1.0, stone_shadow(stone, max(pixel, 0.02 * wave)), near);
 }

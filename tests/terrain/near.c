@@ -199,11 +199,50 @@ static void test_level_ground_is_as_rough_as_natural(void **state)
     assert_true(slopes_deg[2] > 1.3 * slopes_deg[1]);
 }
 
+// What a paraboloid hides of an even sky: the mean of sin^2 of its elevation over all azimuths.
+static double hidden_by(double high, double radius, double from)
+{
+    enum { AZIMUTHS = 720, STEPS = 2000 };
+    double sum = 0;
+    for (int i = 0; i < AZIMUTHS; i++) {
+        const double a = 2 * 180 * DEGREE * (i + 0.5) / AZIMUTHS;
+        double steep = 0;
+        for (int k = 1; k <= STEPS; k++) {
+            const double away = (from + radius) * k / STEPS;
+            const double x = from - away * cos(a), y = away * sin(a);
+            steep = fmax(steep, high * (1 - (x * x + y * y) / (radius * radius)) / away);
+        }
+        sum += steep * steep / (1 + steep * steep) / AZIMUTHS;
+    }
+    return sum;
+}
+
+static void test_a_stone_hides_the_sky_behind_it(void **state)
+{
+    (void)state;
+    static const double HIGH_M[] = {0.05, 0.1, 0.2}, AWAY[] = {1, 1.2, 1.5, 2, 3};
+    const double radius_m = 0.2;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 5; k++) {
+            const double from_m = AWAY[k] * radius_m;
+            const double hides = relief_stone_hides(HIGH_M[i], radius_m, from_m);
+            const double truth = hidden_by(HIGH_M[i], radius_m, from_m);
+            printf("%.2f m, %.1f radii: %.4f, %.4f\n", HIGH_M[i], AWAY[k], hides, truth);
+            assert_close(hides, truth, k == 0 ? 0.003 : 0.02);
+        }
+        // Without a ring: at the edge it is lit as the ground.
+        const double cosine = 1 / sqrt(1 + pow(2 * HIGH_M[i] / radius_m, 2));
+        assert_close(1 - relief_stone_hides(HIGH_M[i], radius_m, radius_m), 0.5 + 0.5 * cosine,
+                     1e-12);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ground_near_by_is_no_blur),
         cmocka_unit_test(test_level_ground_is_as_rough_as_natural),
+        cmocka_unit_test(test_a_stone_hides_the_sky_behind_it),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }
