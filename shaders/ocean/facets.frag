@@ -12,7 +12,8 @@ uniform float u_has_level;    // 1: there is such
 uniform sampler2D u_albedo;   // a: part that is open water
 uniform sampler2D u_lights;   // a: code of the water's depth
 uniform float u_pixel_rad;
-uniform vec2 u_foam; // where it begins and how wide: sea_foam
+uniform vec4 u_foam[SEA_SURF_STEPS + 1]; // where it begins and how wide: sea_foam, sea_surf_step
+uniform float u_broken;                  // depth where all waves have broken, m
 
 layout(location = 0) out vec4 o_facet;
 
@@ -38,7 +39,10 @@ vec4 facet(vec3 position, vec4 level, float depth)
     vec3 normal = normalize(vec3(turned.x, turned.y, turned.z)) * u_wave_local_from_planet;
     float all = max(sum.press_square, 1.0e-12);
     float lost = sqrt(sum.press_lost / all);
-    float foam = sea_foam(sum.press * inversesqrt(all), lost, u_foam.x, u_foam.y);
+    float surf = sea_surf_step(depth, u_broken);
+    int deeper = int(min(surf, SEA_SURF_LAST - 1.0));
+    vec2 ramp = mix(u_foam[deeper].xy, u_foam[deeper + 1].xy, surf - float(deeper));
+    float foam = sea_foam(sum.press * inversesqrt(all), lost, ramp.x, ramp.y);
     return vec4(normal * (1.0 + foam), sum.lost_square);
 }
 

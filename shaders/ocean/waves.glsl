@@ -29,12 +29,11 @@ struct WavesWindow {
     float least, depth;
 };
 
-// One more, of which a mean square slope and a mean square of press are left over.
+// One more, which makes foam by the press that it has in deep water: what shallow water takes of a
+// wave has broken.
 GerstnerSum waves_add(GerstnerSum sum, GerstnerWave w, GerstnerPlace p, WavesWindow window,
-                      float near)
+                      float near, float press)
 {
-    float steep = w.amplitude * w.wavenumber;
-    float press = steep * sea_breaking(w.wavenumber, u_wave_range.w);
     GerstnerRipple r =
         gerstner_ripple(w, p, u_wave_range.x, gerstner_small_angle(gerstner_turn(w, p)));
     vec2 d = vec2(r.dx, r.dy) * w.wavenumber;
@@ -48,12 +47,12 @@ GerstnerSum waves_add(GerstnerSum sum, GerstnerWave w, GerstnerPlace p, WavesWin
     return sum;
 }
 
-// Squares of slope and press of the waves that are left, in water of a depth: that leaves of all
-// what it leaves of one in their middle.
-vec2 waves_left(vec2 squares, float longest, float depth)
+// Mean square slope of the waves that are left, in water of a depth: that leaves of all what it
+// leaves of one in their middle.
+float waves_left(float square, float longest, float depth)
 {
     float shoal = gerstner_shoal(sqrt(longest * max(u_wave_all.z, longest)), depth);
-    return max(squares, vec2(0.0)) * (shoal * shoal);
+    return max(square, 0.0) * (shoal * shoal);
 }
 
 // All waves at a place. What is not shown is in lost_square. The longest come first: where the
@@ -70,10 +69,9 @@ GerstnerSum waves_sum(GerstnerPlace p, WavesWindow window)
             v[i] = texelFetch(u_waves, ivec2(i, g), 0);
         }
         if (v[4].x > shortest) {
-            vec2 lost = waves_left(left, v[4].x, window.depth);
-            sum.lost_square += lost.x;
-            sum.press_square += lost.y;
-            sum.press_lost += lost.y;
+            sum.lost_square += waves_left(left.x, v[4].x, window.depth);
+            sum.press_square += max(left.y, 0.0);
+            sum.press_lost += max(left.y, 0.0);
             break;
         }
         for (int i = 0; i < 4; i++) {
@@ -83,7 +81,7 @@ GerstnerSum waves_sum(GerstnerPlace p, WavesWindow window)
             float press = steep * sea_breaking(w.wavenumber, u_wave_range.w);
             left -= 0.5 * vec2(steep * steep, press * press);
             w.amplitude *= gerstner_shoal(w.wavenumber, window.depth);
-            sum = waves_add(sum, w, p, window, near);
+            sum = waves_add(sum, w, p, window, near, press);
         }
     }
     sum.lost_square += u_wave_range.z;

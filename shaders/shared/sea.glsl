@@ -71,6 +71,17 @@ SHARED_FN Number sea_foam(Number crest, Number lost, Number first, Number width)
            3.0;
 }
 
+// Surf: where the depth is `broken` and less, all waves have broken; of those that come in the part
+// (broken / depth)^4 has (Thornton and Guza 1983, J. Geophys. Res. 88), a quarter of it for each of
+// these steps, down to the open sea.
+#define SEA_SURF_STEPS 8
+#define SEA_SURF_LAST 8.0
+SHARED_FN Number sea_surf_step(Length depth, Length broken)
+{
+    Number ratio = shared_max(depth, 1.0e-3) / shared_max(broken, 1.0e-6);
+    return shared_clamp(2.0 * log2(ratio), 0.0, SEA_SURF_LAST);
+}
+
 // What waves press together counts with this part: long ones break, short ones only make edges
 // ragged. `breaking`: wavenumber of half of it.
 SHARED_FN Number sea_breaking(Number wavenumber, Number breaking)

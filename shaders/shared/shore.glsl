@@ -17,8 +17,9 @@ SHARED_STRUCT(Shore)
     Number sea;      // 1: the water lies at sea level, 0: it is a lake, whose level nobody knows
     Length altitude; // of the ground above sea level; that of open sea is 0
     Length around;   // the same, mean of the texels around; 0 where heights are finer than the mask
-    Length rise;     // of the ground over the footprint's width
+    Number slope;    // of the ground
     Number made;     // of shore_made
+    Length texel;    // of the mask
 };
 
 // Ground this high is land even where the mask says sea, since the sea is level. Where heights know
@@ -51,13 +52,30 @@ SHARED_FN Number shore_dry(Number mask)
     return shared_max(1.0 - x * x * (3.0 - 2.0 * x), 1.0e-4);
 }
 
-// Part of the footprint that is open water.
-SHARED_FN Number shore_water(Shore s)
+// The bed so far from the shore: the profile that waves give to sand of 0.2 mm (Dean 1991, J.
+// Coastal Res. 7).
+#define SHORE_PROFILE 0.1
+SHARED_FN Length shore_bed(Length way)
+{
+    return SHORE_PROFILE * pow(shared_max(way, 0.0), 2.0 / 3.0);
+}
+
+// Ground falls on below water as it does above, where heights end: over so much.
+#define SHORE_FALL_M 30.0
+
+SHARED_STRUCT(ShoreWater)
+{
+    Number part; // of the footprint that is open water
+    Number code; // of its depth by shared/sea.glsl, where the shore is near; else 0
+};
+
+SHARED_FN ShoreWater shore_water(Shore s)
 {
     Length level =
         SHORE_SEA_M + shared_max(s.around, 0.0) * (SHORE_AROUND + SHORE_AROUND_MADE * s.made);
-    Number below = 0.5 + (level - s.altitude) / (s.rise + 0.1);
-    Number off_level = (shared_abs(s.altitude) - SHORE_SEA_M) / (s.rise + 0.1);
+    Length rise = s.slope * s.texels * s.texel + 0.1;
+    Number below = 0.5 + (level - s.altitude) / rise;
+    Number off_level = (shared_abs(s.altitude) - SHORE_SEA_M) / rise;
     Number is_level = s.sea * shared_clamp(0.5 - off_level, 0.0, 1.0);
     Number limit = 0.5 + (SHORE_LEVEL_MASK - 0.5) * is_level;
     Number made = s.made * (SHORE_LAKE_MADE + (SHORE_SEA_MADE - SHORE_LAKE_MADE) * s.sea);
@@ -70,27 +88,23 @@ SHARED_FN Number shore_water(Shore s)
     mask = s.mask > 0.0 ? (s.mask < 1.0 ? mask : 1.0) : 0.0;
     Number height = shared_clamp(below, 0.0, 1.0);
     height += (1.0 - height) * shared_max(coarse, 1.0 - s.sea);
-    return shared_min(mask, height);
+    // From the shore on: by the mask as far as that changes, by heights as far as ground falls.
+    Number off = shared_max(moved, 0.0);
+    Number part = off / shared_max(off + 1.0 - s.mask, 1.0e-6);
+    Number shelf = sea_depth_code(shore_bed(off * s.texel)) * (1.0 - part * part * part * part);
+    Length fall = shore_bed((level - s.altitude) / shared_max(s.slope, 1.0e-6));
+    Number beach = s.sea * sea_depth_code(fall + SHORE_FALL_M * s.slope);
+    ShoreWater w;
+    w.part = shared_min(mask, height);
+    w.code = shared_max(shelf, beach) * (1.0 - coarse);
+    return w;
 }
-
-// Where heights finer than the mask have the sea go on into what the mask has as land, the bed lies
-// below the surface too, that deep: no bay is a dry one.
-#define SHORE_BAY_M 5.0
 
 // Of `fine` heights with so many octaves more than the mask has: 0 to 1 over two.
 SHARED_FN Number shore_fine(Number octaves)
 {
     Number x = shared_clamp(0.5 * octaves, 0.0, 1.0);
     return x * x * (3.0 - 2.0 * x);
-}
-
-// Depth of water as a code of shared/sea.glsl, where the mask has the part `mask` and `told` is the
-// depth around: toward land, where it may be unknown, it shelves.
-SHARED_FN Number shore_depth(Number told, Number mask, Number fine)
-{
-    Number shelf = 1.0 - mask * mask;
-    Number bay = shared_min(shelf, sea_depth_code(SHORE_BAY_M));
-    return shared_max(told, shelf + (bay - shelf) * fine);
 }
 
 #endif // SHARED_SHORE_GLSL

@@ -28,10 +28,11 @@ struct LookGround {
     float steep, log2_texel, shore;
 };
 
-// Part of a footprint that is open water, where the masks say `water` (see terrain_water).
-float look_shore(vec3 water, Tangent t, LookGround ground)
+// Open water in a footprint and the code of its depth, where the masks say `water` (see
+// terrain_water).
+vec2 look_shore(vec3 water, Tangent t, LookGround ground)
 {
-    float part = water.x;
+    vec2 shore = water.xy;
 #if defined(HAS_DEPTH) && ELEVATION_COUNT > 0 && !defined(HAS_MEAN_SHORES)
     // No branch, but a loop that dry ground does not enter.
     int count = water.x > 0.0 ? 1 : 0;
@@ -39,19 +40,14 @@ float look_shore(vec3 water, Tangent t, LookGround ground)
         float altitude = layers_altitude_linear(0.0, t.ground, t.log2_footprint);
         float around = layers_altitude_linear(0.0, t.ground, max(t.log2_footprint, water.z + 1.0));
         around *= 1.0 - shore_fine(water.z - ground.log2_texel);
-        float width = exp2(t.log2_footprint);
-        part = shore_water(Shore(water.x, width * exp2(-water.z), water.y > 0.5 / 255.0 ? 1.0 : 0.0,
-                                 altitude, around, width * ground.steep,
-                                 shore_made(ground.shore * exp2(-water.z))));
+        float texel = exp2(water.z);
+        ShoreWater w = shore_water(Shore(water.x, exp2(t.log2_footprint - water.z),
+                                         water.y > 0.5 / 255.0 ? 1.0 : 0.0, altitude, around,
+                                         ground.steep, shore_made(ground.shore / texel), texel));
+        shore = vec2(w.part, max(water.y, w.code));
     }
 #endif
-    return part;
-}
-
-// Its depth as a code of shared/sea.glsl.
-float look_shore_depth(vec3 water, float log2_texel)
-{
-    return shore_depth(water.y, water.x, shore_fine(water.z - log2_texel));
+    return shore;
 }
 
 // Square root of the albedo around, of land with that one and of what sea the masks have there, or
@@ -157,8 +153,9 @@ Look find_look(Tangent t, LookPlace p)
     float steep = length(standing - t.up * dot(standing, t.up));
     Look look;
     vec3 water = terrain_water(t.ground, t.log2_footprint);
-    look.water = look_shore(water, t, LookGround(length(base.slope), base.view.texel, r.shore));
-    look.depth = look_shore_depth(water, base.view.texel);
+    vec2 shore = look_shore(water, t, LookGround(length(base.slope), base.view.texel, r.shore));
+    look.water = shore.x;
+    look.depth = shore.y;
     vec3 albedo = u_default_albedo;
     vec3 region = u_default_albedo;
     vec3 stone = u_default_albedo;
@@ -212,10 +209,9 @@ Look find_look(Tangent t, LookPlace p)
     vec4 slope = terrain_slope(layers_slope(flat_ground, 0.0, t, data), t);
     vec3 root = sqrt(u_default_albedo);
     vec3 water = terrain_water(t.ground, t.log2_footprint);
-    float part = look_shore(water, t, LookGround(length(slope.xyz), slope.w, 0.0));
+    vec2 shore = look_shore(water, t, LookGround(length(slope.xyz), slope.w, 0.0));
     vec3 region = terrain_albedo(root, t.ground, max(t.log2_footprint, u_region));
-    return Look(terrain_albedo(root, t.ground, t.log2_footprint), part,
-                look_shore_depth(water, slope.w), normalize(t.up - slope.xyz),
-                look_region(region, t, 0.0), 1.0, 1.0);
+    return Look(terrain_albedo(root, t.ground, t.log2_footprint), shore.x, shore.y,
+                normalize(t.up - slope.xyz), look_region(region, t, 0.0), 1.0, 1.0);
 }
 #endif

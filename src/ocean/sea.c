@@ -47,6 +47,24 @@ struct sea_foam_ramp sea_foam_find(double share)
     return (struct sea_foam_ramp){first, low};
 }
 
+// Root mean square height over the depth of waves that have all broken: Thornton and Guza 1983.
+static const double SURF_GAMMA = 0.42;
+// Of a broken wave's length what foam covers, in round numbers.
+static const double SURF_SHARE = 0.5;
+
+struct sea_surf sea_surf_find(const struct ocean_waves *waves, double height_m)
+{
+    // Heights are distributed as Rayleigh's law says: the significant is sqrt(2) times the rms.
+    struct sea_surf surf = {.broken_m = height_m / sqrt(2) / SURF_GAMMA};
+    const double open = sea_whitecap_share(waves);
+    const double broken = fmin(waves->whitecaps, 1) * SURF_SHARE;
+    for (int i = 0; i <= SEA_SURF_STEPS; i++) {
+        const double share = i < SEA_SURF_STEPS ? broken * pow(4, -i) : 0;
+        surf.ramps[i] = sea_foam_find(fmax(share, open));
+    }
+    return surf;
+}
+
 double sea_diffuse_reflectance(double index)
 {
     enum { STEPS = 256 };

@@ -6,6 +6,7 @@
 // sea*.
 
 #include "ocean/ocean.h"
+#include "shared/sea.glsl"
 
 // Mean square slope of all waves, along and across together: Cox and Munk 1954 for a clean surface.
 double sea_mean_square_slope(const struct ocean_waves *waves);
@@ -22,6 +23,14 @@ struct sea_foam_ramp {
     double first, width;
 };
 struct sea_foam_ramp sea_foam_find(double share);
+
+// Foam of waves that break because water is shallow: its ramps by the steps of sea_surf_step, the
+// last of them that of the open sea. `height_m`: significant height in deep water.
+struct sea_surf {
+    double broken_m; // depth
+    struct sea_foam_ramp ramps[SEA_SURF_STEPS + 1];
+};
+struct sea_surf sea_surf_find(const struct ocean_waves *waves, double height_m);
 
 // Albedo of what is white, streaks and patches that dissolve included: Koepke 1984, Appl. Opt. 23.
 #define SEA_WHITECAP_ALBEDO 0.22

@@ -161,7 +161,6 @@ trl_result waves_init(const struct waves_desc *desc, struct waves *out)
         draw_components(out, &s, desc->ocean, sums);
         out->breaking_per_m =
             BREAKING_OF_PEAK * wave_number_per_m(s.peak_per_s, desc->ocean->gravity_m_s2);
-        out->white_share = sea_whitecap_share(waves);
     }
     mem_free(desc->ctx, sums);
     if (result != TRL_OK) {
@@ -169,6 +168,7 @@ trl_result waves_init(const struct waves_desc *desc, struct waves *out)
         return result;
     }
     finish_sums(out, fmax(desc->total_square, 0));
+    out->surf = sea_surf_find(waves, waves_significant_height_m(out));
     return TRL_OK;
 }
 

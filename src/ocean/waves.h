@@ -13,6 +13,7 @@
 
 #include "base/vec3.h"
 #include "ocean/ocean.h"
+#include "ocean/sea.h"
 #include "shared/gerstner.glsl"
 
 // One of the spectrum.
@@ -31,7 +32,7 @@ struct waves {
     double mean_square_slope;          // of the components
     double rest_square;                // of all shorter waves, beyond them
     double breaking_per_m;             // of sea_breaking
-    double white_share;                // of sea_whitecap_share
+    struct sea_surf surf;              // foam
 };
 
 // `total_square`: mean square slope of the whole surface. The shortest components are left out

@@ -107,6 +107,21 @@ static double find_level(const struct surface *surface, struct place at, double 
     return altitude;
 }
 
+// Of that ground, over half a texel.
+static double find_slope(const struct surface *surface, struct place at, double texel_rad)
+{
+    const double step = SLOPE_STEP * texel_rad;
+    double rises[2] = {0};
+    for (int k = 0; k < 2; k++) {
+        const double north = k ? step : 0, east = k ? 0 : step / fmax(cos(at.latitude), 1e-3);
+        rises[k] = find_level(surface, (struct place){at.latitude + north, at.longitude + east},
+                              &texel_rad) -
+                   find_level(surface, (struct place){at.latitude - north, at.longitude - east},
+                              &texel_rad);
+    }
+    return hypot(rises[0], rises[1]) / (2 * step * surface->radius_m);
+}
+
 // Mean of what is around, where heights are no finer than the mask: as the next level of detail.
 static double find_around(const struct surface *surface, struct place at, double mask_rad,
                           double texel_rad)
@@ -130,24 +145,26 @@ double surface_water(const struct surface *surface, struct vec3 direction, doubl
     if (!(mask.water > 0)) {
         return 0;
     }
-    struct noise_place place;
-    double texel_rad = mask.texel_rad;
-    const double altitude_m = find_level(surface, at, &texel_rad);
-    if (everywhere_m < 0) {
-        const double fine = shore_fine(log2(mask.texel_rad / texel_rad));
-        *depth_code = shore_depth(mask.code, mask.water, fine);
-    }
     if (surface->counts[SURFACE_ELEVATION] == 0) {
         return mask.water;
     }
+    struct noise_place place;
+    double texel_rad = mask.texel_rad;
+    const double altitude_m = find_level(surface, at, &texel_rad);
+    const double texel_m = mask.texel_rad * surface->radius_m;
     const double shore_m = noise_is_there(&surface->noise)
                                ? surface_relief(surface, vec3_normalize(direction), &place).shore
                                : 0;
-    return shore_water((Shore){.mask = mask.water,
-                               .sea = mask.code > 0.5 / 255,
-                               .altitude = altitude_m,
-                               .around = find_around(surface, at, mask.texel_rad, texel_rad),
-                               .made = shore_made(shore_m / (mask.texel_rad * surface->radius_m))});
+    const ShoreWater water =
+        shore_water((Shore){.mask = mask.water,
+                            .sea = mask.code > 0.5 / 255,
+                            .altitude = altitude_m,
+                            .around = find_around(surface, at, mask.texel_rad, texel_rad),
+                            .slope = find_slope(surface, at, texel_rad),
+                            .made = shore_made(shore_m / texel_m),
+                            .texel = texel_m});
+    *depth_code = everywhere_m >= 0 ? *depth_code : fmax(mask.code, water.code);
+    return water.part;
 }
 
 double surface_water_depth_m(const struct surface *surface, struct vec3 direction)

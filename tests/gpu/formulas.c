@@ -334,20 +334,22 @@ static void shores_agree(void **state)
     gpu_program_set_float(&program, "u_wants_sea", 2);
     const float masks[] = {0, 0.3f, 0.55f, 0.9f, 1}, altitudes[] = {-3, 0, 0.4f, 40};
     for (int i = 0; i < 5 * 4 * 4; i++) {
-        // Mask and texels in a footprint; altitude, that around, rise, made-up detail.
+        // Mask and texels in a footprint; altitude, that around, slope, made-up detail.
         const float angle[4] = {masks[i % 5], i / 20 == 3 ? 0.6f : 0.05f, 0, 0};
-        const float shell[4] = {altitudes[i / 5 % 4], 20.0f * (float)(i / 20), 2,
+        const float shell[4] = {altitudes[i / 5 % 4], 20.0f * (float)(i / 20), 0.01f,
                                 0.4f * (float)(i / 20) - 0.5f};
         gpu_program_set_vec4(&program, "u_angle", angle);
         gpu_program_set_vec4(&program, "u_shell", shell);
         const struct texel got = draw(f, &program);
         for (int k = 0; k < 2; k++) {
-            const double wanted =
+            const ShoreWater w =
                 shore_water((Shore){(double)angle[0], (double)angle[1], 1 - k, (double)shell[0],
-                                    (double)shell[1], (double)shell[2], (double)shell[3]});
-            assert_true(wanted >= 0 && wanted <= 1);
-            if (fabs((double)got.rgba[k] - wanted) > 1e-5) {
-                fail_msg("%d, %d: GPU %.9g, C %.17g", i, k, (double)got.rgba[k], wanted);
+                                    (double)shell[1], (double)shell[2], (double)shell[3], 4000});
+            assert_true(w.part >= 0 && w.part <= 1 && w.code >= 0 && w.code <= 1);
+            if (fabs((double)got.rgba[k] - w.part) > 1e-5 ||
+                fabs((double)got.rgba[k + 2] - w.code) > 1e-5) {
+                fail_msg("%d, %d: GPU %.9g, %.9g, C %.17g, %.17g", i, k, (double)got.rgba[k],
+                         (double)got.rgba[k + 2], w.part, w.code);
             }
         }
     }

@@ -261,6 +261,39 @@ static void foam_covers_what_the_wind_makes_of_whitecaps(void **state)
     assert_true(sea_foam(5, 0.1, none.first, none.width) < 1e-12);
 }
 
+// Foam of the mean over the sea, by the depth over the height of waves in deep water.
+static double find_surf(const struct sea_surf *surf, double depth_m)
+{
+    const double step = sea_surf_step(depth_m, surf->broken_m);
+    const int i = step < SEA_SURF_STEPS ? (int)step : SEA_SURF_STEPS - 1;
+    const struct sea_foam_ramp *r = &surf->ramps[i];
+    return sea_foam(0, 1, r[0].first + (step - i) * (r[1].first - r[0].first),
+                    r[0].width + (step - i) * (r[1].width - r[0].width));
+}
+
+// Of waves 1 m high half of the surf is whitecaps in 1.68 m (1 / 1.414 / 0.42) and less, twice as
+// deep a sixteenth of that, and far out what the wind makes.
+static void waves_break_where_water_is_shallow(void **state)
+{
+    (void)state;
+    const struct ocean_waves waves = {.wind_m_s = 7, .whitecaps = 1};
+    const struct sea_surf surf = sea_surf_find(&waves, 1);
+    const double open = SEA_FOAM_DENSITY * sea_whitecap_share(&waves);
+    const double dense = SEA_FOAM_DENSITY * 0.5;
+    assert_close(surf.broken_m, 1.6836, 1e-4);
+    const double parts[] = {0.1, 1, sqrt(2), 1.7, 2, 2.3},
+                 wants[] = {1, 1, 0.25, 0.1197, 0.0625, 0.0357};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        const double foam = find_surf(&surf, parts[i] * surf.broken_m);
+        printf("%g of the depth: %.4f, wanted %.4f\n", parts[i], foam, wants[i] * dense);
+        assert_close(foam / (wants[i] * dense), 1, 0.1);
+    }
+    assert_close(find_surf(&surf, 20), open, 1e-6);
+    const struct ocean_waves bare = {.wind_m_s = 7, .whitecaps = 0}, calm = {.whitecaps = 1};
+    const struct sea_surf none = sea_surf_find(&bare, 1), still = sea_surf_find(&calm, 0);
+    assert_true(find_surf(&none, 0.5) < 1e-12 && find_surf(&still, 0.5) < 1e-12);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -272,6 +305,7 @@ int main(void)
         cmocka_unit_test(paths_meet_the_same_surface),
         cmocka_unit_test(wind_makes_slopes_and_whitecaps),
         cmocka_unit_test(foam_covers_what_the_wind_makes_of_whitecaps),
+        cmocka_unit_test(waves_break_where_water_is_shallow),
         cmocka_unit_test(depths_come_back_from_their_codes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -61,11 +61,12 @@ void main()
     vec4 seas = vec4(fresnel_reflectance(u_angle.x, u_angle.y), sea_hidden(u_angle.x, u_shell.x),
                      sea_glint(u_angle.x, 0.8, u_shell.y, u_shell.z, u_shell.x, 1.34),
                      sea_code_depth(sea_depth_code(u_shell.w)));
-    seas = u_wants_sea > 1.5 ? vec4(shore_water(Shore(u_angle.x, u_angle.y, 1.0, u_shell.x,
-                                                      u_shell.y, u_shell.z, u_shell.w)),
-                                    shore_water(Shore(u_angle.x, u_angle.y, 0.0, u_shell.x,
-                                                      u_shell.y, u_shell.z, u_shell.w)),
-                                    0.0, 0.0)
+    ShoreWater shores[2];
+    for (int k = 0; k < 2; k++) {
+        shores[k] = shore_water(Shore(u_angle.x, u_angle.y, 1.0 - float(k), u_shell.x, u_shell.y,
+                                      u_shell.z, u_shell.w, 4000.0));
+    }
+    seas = u_wants_sea > 1.5 ? vec4(shores[0].part, shores[1].part, shores[0].code, shores[1].code)
                              : seas;
     seas = u_wants_sea > 2.5
                ? vec4(sea_foam(3.0 * u_angle.x, u_shell.x, u_shell.z + 1.0, u_shell.y))
