@@ -20,6 +20,8 @@
 #define NOISE_SCALE 62.0
 // Stripes to a lattice unit.
 #define NOISE_STRIPES 1.1
+// Where the squared length of their sum is this, they have 0.7 of their height.
+#define NOISE_FORK 0.04
 
 // A place: x, y, z from the whole lattice point i, j, k (skewed).
 SHARED_STRUCT(NoisePlace)
@@ -131,7 +133,7 @@ SHARED_FN NoiseValue noise_simplex(NoisePlace p)
 }
 
 // In [-1, 1], mean 0: stripes that vary along a unit direction, each corner in its own phase.
-// Waves of the corners are added as complex numbers, and the sum is brought to length 1; the
+// Waves of the corners are added as complex numbers, and the sum is brought near length 1; the
 // direction counts as constant in the gradient.
 SHARED_FN NoiseValue noise_stripes(NoisePlace p, Number dx, Number dy, Number dz)
 {
@@ -162,11 +164,11 @@ SHARED_FN NoiseValue noise_stripes(NoisePlace p, Number dx, Number dy, Number dz
         im.y += fall * sine * c.y + sweep * cosine * dy;
         im.z += fall * sine * c.z + sweep * cosine * dz;
     }
-    // Where the waves cancel there is a fork; it is kept smooth.
-    Number size2 = re.value * re.value + im.value * im.value + 0.004;
-    Number inverse = 1.0 / sqrt(size2);
+    // Where the waves cancel there is a fork, and about it they are low: gullies come and go.
+    Number size2 = re.value * re.value + im.value * im.value + NOISE_FORK;
+    Number inverse = sqrt((1.0 + NOISE_FORK) / size2);
     Number cube = inverse / size2;
-    Number kept = (im.value * im.value + 0.004) * cube;
+    Number kept = (im.value * im.value + NOISE_FORK) * cube;
     Number lost = re.value * im.value * cube;
     NoiseValue sum;
     sum.value = re.value * inverse;

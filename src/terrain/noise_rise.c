@@ -28,10 +28,10 @@ struct noise_reach noise_find_reach(const struct terrain_noise *noise, double am
 
 // Slopes per wavelength of octaves of size 1. Of a million random places one octave alone is never
 // steeper than 13, ten together than 30: one is let be the steepest, and the others a third of it.
-// Gullies are steeper about their forks only, where they are no higher than elsewhere.
+// Gullies nowhere are steeper than 21.02.
 static const double STEEPEST_NOISE = 13;
 static const double NEXT_STEEPEST = 4;
-static const double STEEPEST_GULLY = 20;
+static const double STEEPEST_GULLY = 21.1;
 
 // The least, the given and the largest of what octaves are multiplied by, within a reach.
 struct noise_range {

@@ -207,6 +207,26 @@ static void check_gradients(const struct surface *s, double mean_bound)
     }
 }
 
+// Within 1, not steeper than rays are told, and not as deep everywhere: about forks they are
+// shallow. Divided by their full length they are 3 times as steep there.
+static void test_gullies_come_and_go(void **state)
+{
+    (void)state;
+    enum { COUNT = 300000 };
+    double most = 0, steepest = 0, squares = 0;
+    for (int i = 0; i < COUNT; i++) {
+        const struct vec3 at = vec3_scale(some_place(i), 0.001 * i), along = some_place(7 * i + 3);
+        const NoisePlace place = {at.x, at.y, at.z, (Whole)i, 5, 11};
+        const NoiseValue v = noise_stripes(place, along.x, along.y, along.z);
+        most = fmax(most, fabs(v.value));
+        steepest = fmax(steepest, sqrt(v.x * v.x + v.y * v.y + v.z * v.z));
+        squares += v.value * v.value;
+    }
+    assert_true(most <= 1);
+    assert_true(steepest < 21.1);
+    assert_close(sqrt(squares / COUNT), 0.6, 0.01);
+}
+
 static void test_gradients_are_those_of_the_heights(void **state)
 {
     struct fixture *f = *state;
@@ -452,6 +472,7 @@ int main(void)
         cmocka_unit_test(test_detail_fades_as_the_layer_does),
         cmocka_unit_test(test_no_shore_is_above_the_ceiling),
         cmocka_unit_test(test_detail_of_data_agrees_on_both_sides),
+        cmocka_unit_test(test_gullies_come_and_go),
         cmocka_unit_test(test_gradients_are_those_of_the_heights),
         cmocka_unit_test(test_a_cliff_is_as_rough_upward_as_along),
     };
