@@ -22,18 +22,21 @@ layout(location = 0) out vec4 out_reflection;
 layout(location = 1) out float out_weight;
 
 const int FACETS_FOLLOWED = 2;
-const int LOOKS = 64;        // at squares, for a ray
-const float FAR_M = 1.0e6;   // where rays end
-const float STEP = 0.01;     // into the next square, pixels
-const float BEHIND = 1.0e-5; // relative: rounding of distances
-const float THICKNESS = 0.1; // relative: what is farther behind an edge passes behind it
-const float BEYOND = 0.5;    // relative: so far behind the ray nothing is known of ground that
-                             // goes on beyond the border
+const int LOOKS = 64;          // at squares, for a ray
+const float FAR_M = 1.0e6;     // where rays end
+const float STEP = 0.01;       // into the next square, pixels
+const float BEHIND = 1.0e-5;   // relative: rounding of distances
+const float THICKNESS = 0.1;   // relative: what is farther behind an edge passes behind it
+const float BEYOND = 0.5;      // relative: so far behind the ray nothing is known of ground that
+                               // goes on beyond the border
+const float HIGHEST_M = 1.0e4; // above a sea no ground stands as high
 // A ray in the picture: x and y in pixels, and 1 / distance along the view's axis, all linear.
 struct Way {
-    vec3 from, step; // step: for a pixel along the longer side
-    float end;       // in steps
-    bool leaves;     // the picture, there
+    vec3 from, step;    // step: for a pixel along the longer side
+    float end;          // in steps
+    bool leaves;        // the picture, there
+    float metres;       // steps times this, over 1 / distance where they end, are the way's length
+    float radius, sine; // of the water, from the planet's centre; of the ray's elevation there
 };
 
 vec3 picture_at(vec3 point, vec2 size)
@@ -57,6 +60,10 @@ Way find_way(vec3 water, vec3 direction, vec2 size)
                 max(abs(way.step.xy), vec2(1.0e-9));
     float border = max(min(room.x, room.y) - 2.0 * STEP, 0.0);
     way.leaves = border < count;
+    way.metres = reach / count * (way.from.z + across.z);
+    vec3 centre = u_eye_up * u_eye.x + water;
+    way.radius = length(centre);
+    way.sine = dot(centre, direction) / way.radius;
     way.end = min(border, count);
     return way;
 }
@@ -67,6 +74,14 @@ ivec2 square_texel(ivec2 square, int level, ivec2 size)
     ivec2 fours = (size + 3) / 4;
     int column = level == 3 ? fours.x + (fours.x + 3) / 4 : level == 2 ? fours.x : 0;
     return square + (level > 0 ? ivec2(column, size.y) : ivec2(0));
+}
+
+// How high a ray is over the water where it ends.
+float rise_of(Way way)
+{
+    float along = way.metres * way.end / (way.from.z + way.step.z * way.end);
+    float more = 2.0 * way.radius * way.sine * along + along * along;
+    return more / (way.radius + sqrt(max(way.radius * way.radius + more, 0.0)));
 }
 
 // The pixel that the ray meets, and in z how much of the light is terrain's.
@@ -98,10 +113,12 @@ vec3 follow(Way way, ivec2 size)
     vec3 at = way.from + way.step * (min(s, way.end) + STEP);
     ivec2 pixel = clamp(ivec2(at.xy), ivec2(0), size - 1);
     // Ground that the border cuts goes on there, the less surely the higher above it the ray is.
+    // From space all coasts at the border lay in the way of rays that went up beside them.
     float nearest = texelFetch(u_near, pixel, 0).x;
     float gap = at.z / max(nearest, 1.0e-9) - 1.0;
     float guess =
         way.leaves && s >= way.end && gap > -THICKNESS ? 1.0 - smoothstep(0.0, BEYOND, gap) : 0.0;
+    guess *= 1.0 - smoothstep(0.5, 1.0, rise_of(way) / HIGHEST_M);
     return vec3(vec2(pixel), max(known, guess));
 }
 

@@ -6,6 +6,7 @@
 #include "sky/reflection.h"
 
 #include <math.h>
+#include <stdio.h>
 
 // The eye is 10 m above the water and looks level at a wall 100 m away and 20 m high. A row whose
 // way falls by m meets the water at 10 m / m, and its mirrored ray the wall at 100 m * m - 10 m.
@@ -53,10 +54,10 @@ static void fill_surface(float *position, float *albedo)
 }
 
 // Level water, as rough as that.
-static void fill_facets(const float *position, float mean_square_slope, float *facets)
+static void fill_facets(const float *position, double eye_m, float mean_square_slope, float *facets)
 {
     for (size_t i = 0; i < 4 * SIZE * SIZE; i += 4) {
-        const struct vec3 at = {RADIUS_M + EYE_M + (double)position[i], (double)position[i + 1],
+        const struct vec3 at = {RADIUS_M + eye_m + (double)position[i], (double)position[i + 1],
                                 (double)position[i + 2]};
         const struct vec3 up = vec3_normalize(at);
         facets[i] = (float)up.x;
@@ -79,26 +80,35 @@ static struct gpu_texture make_texture(struct fixture *f, const float *texels)
     return texture;
 }
 
-static void draw(struct fixture *f, float mean_square_slope, float texels[4 * HALF * HALF])
+// What an eye sees, and how high it is.
+struct scene {
+    void (*fill)(float *position, float *albedo);
+    struct color (*paint)(uint32_t x, uint32_t y, const void *user);
+    double eye_m;
+    struct vec3 forward, up;
+};
+
+static void draw_scene(struct fixture *f, const struct scene *scene, float mean_square_slope,
+                       float texels[4 * HALF * HALF])
 {
     static float position_texels[4 * SIZE * SIZE], albedo_texels[4 * SIZE * SIZE],
         facet_texels[4 * SIZE * SIZE];
-    fill_surface(position_texels, albedo_texels);
-    fill_facets(position_texels, mean_square_slope, facet_texels);
+    scene->fill(position_texels, albedo_texels);
+    fill_facets(position_texels, scene->eye_m, mean_square_slope, facet_texels);
     struct gpu_texture position = make_texture(f, position_texels);
     struct gpu_texture albedo = make_texture(f, albedo_texels);
     struct gpu_texture facets = make_texture(f, facet_texels);
-    struct gpu_texture radiance = fixture_paint(f, SIZE, SIZE, paint_radiance, NULL);
+    struct gpu_texture radiance = fixture_paint(f, SIZE, SIZE, scene->paint, NULL);
     const struct gpu_target_desc desc = {
         .label = "picture", .color_count = 1, .colors[0].texture = &radiance};
     struct gpu_target target;
     assert_int_equal(gpu_target_init(f->gpu, &desc, &target), TRL_OK);
     const struct sky_pixels pixels = {
         .gpu = f->gpu, .ground_radius_m = RADIUS_M, .top_radius_m = RADIUS_M + 1e5};
-    const struct camera camera = {.position_m = {RADIUS_M + EYE_M, 0, 0},
-                                  .forward = {0, 0, 1},
+    const struct camera camera = {.position_m = {RADIUS_M + scene->eye_m, 0, 0},
+                                  .forward = scene->forward,
                                   .right = {0, 1, 0},
-                                  .up = {1, 0, 0},
+                                  .up = scene->up,
                                   .sun_direction = {1, 0, 0},
                                   .tan_half_fov_x = TAN_HALF,
                                   .tan_half_fov_y = TAN_HALF};
@@ -117,6 +127,12 @@ static void draw(struct fixture *f, float mean_square_slope, float texels[4 * HA
     gpu_texture_finish(&facets);
     gpu_texture_finish(&albedo);
     gpu_texture_finish(&position);
+}
+
+static void draw(struct fixture *f, float mean_square_slope, float texels[4 * HALF * HALF])
+{
+    const struct scene scene = {fill_surface, paint_radiance, EYE_M, {0, 0, 1}, {1, 0, 0}};
+    draw_scene(f, &scene, mean_square_slope, texels);
 }
 
 static void calm_water_mirrors_the_wall_where_geometry_says(void **state)
@@ -141,6 +157,54 @@ static void calm_water_mirrors_the_wall_where_geometry_says(void **state)
         }
     }
     assert_true(mirrored >= 3 && open >= 3);
+}
+
+// Straight down from 2000 km on a sea whose coast lies along the picture's border.
+static const double SPACE_M = 2e6;
+
+static bool is_coast(uint32_t x, uint32_t y)
+{
+    return x < 3 || y < 3 || x >= SIZE - 3 || y >= SIZE - 3;
+}
+
+static void fill_sea_from_space(float *position, float *albedo)
+{
+    for (uint32_t i = 0; i < SIZE * SIZE; i++) {
+        const struct vec3 way =
+            vec3_normalize((struct vec3){-1, slope_at(i % SIZE, SIZE), slope_at(i / SIZE, SIZE)});
+        const double eye = RADIUS_M + SPACE_M, along = -eye * way.x;
+        const double distance = along - sqrt(along * along - eye * eye + RADIUS_M * RADIUS_M);
+        position[4 * i] = (float)(distance * way.x);
+        position[4 * i + 1] = (float)(distance * way.y);
+        position[4 * i + 2] = (float)(distance * way.z);
+        position[4 * i + 3] = 0;
+        albedo[4 * i + 3] = is_coast(i % SIZE, i / SIZE) ? 0 : 1;
+    }
+}
+
+static struct color paint_coast(uint32_t x, uint32_t y, const void *user)
+{
+    (void)user;
+    const float value = is_coast(x, y) ? WALL : AIR;
+    return (struct color){value, value, value};
+}
+
+// Rays that leave the picture over a coast are hundreds of kilometres up.
+static void no_coast_is_mirrored_into_space(void **state)
+{
+    static float texels[4 * HALF * HALF];
+    const struct scene scene = {fill_sea_from_space, paint_coast, SPACE_M, {-1, 0, 0}, {0, 0, 1}};
+    draw_scene(*state, &scene, 0.02f, texels);
+    double most = 0;
+    for (uint32_t i = 0; i < HALF * HALF; i++) {
+        // Beside the coast it is what lies behind it that is not known.
+        const uint32_t x = i % HALF, y = i / HALF;
+        if (x >= 4 && y >= 4 && x < HALF - 4 && y < HALF - 4) {
+            most = fmax(most, (double)texels[4 * i + 3]);
+        }
+    }
+    printf("%.3f of the mirrored light is land's\n", most);
+    assert_true(most < 1e-3);
 }
 
 // Of a row of the half picture: how large facets of all slopes along the view are as they are seen,
@@ -201,6 +265,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(calm_water_mirrors_the_wall_where_geometry_says),
         cmocka_unit_test(rough_water_draws_the_image_out),
+        cmocka_unit_test(no_coast_is_mirrored_into_space),
     };
     return cmocka_run_group_tests(tests, fixture_set_up_gpu, fixture_tear_down);
 }
