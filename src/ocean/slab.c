@@ -42,7 +42,7 @@ double slab_weight(const struct slab_order *order, int k)
     return order->grid->weight[k] * (order->m == 0 ? 2 * M_PI : M_PI);
 }
 
-void slab_solve(double *a, double *b, int count)
+void slab_solve(double *restrict a, double *restrict b, int count)
 {
     for (int r = 0; r < N; r++) {
         for (int c = 0; c < N; c++) {
@@ -97,18 +97,42 @@ static void fill_thin(const struct slab_order *order, double depth, struct slab 
     }
 }
 
+// Columns that are summed at once, in registers; and of those that are left over.
+enum { BLOCK = 12, PIECE = 4 };
+
+// One row of the product below, from a column on: `width` of them, at most BLOCK.
+static inline void add_row(const double factor[N], const double *right, int width,
+                           double *restrict out)
+{
+    double sum[BLOCK] = {0};
+    for (int k = 0; k < N; k++) {
+        for (int j = 0; j < width; j++) {
+            sum[j] += factor[k] * right[k * STRIDE + j];
+        }
+    }
+    for (int j = 0; j < width; j++) {
+        out[j] += sum[j];
+    }
+}
+
 // out += sum over the nodes of left times right.
 static void add_product(const struct slab_order *order, const double *left, const double *right,
                         double *out)
 {
     const int count = order->grid->count, outputs = order->grid->outputs;
     for (int i = 0; i < outputs; i++) {
+        double factor[N];
         for (int k = 0; k < N; k++) {
-            const double factor = left[i * STRIDE + k] * slab_weight(order, k);
-            for (int j = 0; j < count; j++) {
-                out[i * STRIDE + j] += factor * right[k * STRIDE + j];
-            }
+            factor[k] = left[i * STRIDE + k] * slab_weight(order, k);
         }
+        int j = 0;
+        for (; j + BLOCK <= count; j += BLOCK) {
+            add_row(factor, right + j, BLOCK, out + i * STRIDE + j);
+        }
+        for (; j + PIECE <= count; j += PIECE) {
+            add_row(factor, right + j, PIECE, out + i * STRIDE + j);
+        }
+        add_row(factor, right + j, count - j, out + i * STRIDE + j);
     }
 }
 
@@ -197,17 +221,35 @@ void slab_add_below(const struct slab_order *order, const struct slab *layer, co
     leave_above(order, layer, &between, reflected);
 }
 
+// The bed sends the same radiance up in all directions, L per beam: A / pi times the irradiance by
+// the beam, what the layer scatters, and what comes back of the bed's own light.
 void slab_add_bed(const struct slab_order *order, const struct slab *layer, double albedo,
                   double *reflected)
 {
     const struct slab_grid *grid = order->grid;
-    double bed[SLAB_MAX * SLAB_MAX] = {0};
-    for (int i = 0; i < grid->outputs && order->m == 0; i++) {
+    double lit[SLAB_MAX], back = 0; // irradiance of the bed per beam, and by its own radiance of 1
+    for (int j = 0; j < grid->count; j++) {
+        lit[j] = grid->mu[j] * layer->direct[j];
+    }
+    for (int k = 0; k < N; k++) {
+        const double weight = slab_weight(order, k) * grid->mu[k];
         for (int j = 0; j < grid->count; j++) {
-            bed[i * STRIDE + j] = albedo / M_PI * grid->mu[j];
+            lit[j] += weight * layer->passed[k * STRIDE + j];
+        }
+        for (int l = 0; l < N; l++) {
+            back += weight * slab_weight(order, l) * layer->reflected[k * STRIDE + l];
         }
     }
-    slab_add_below(order, layer, bed, reflected);
+    const double share = order->m == 0 ? albedo / M_PI / (1 - albedo / M_PI * back) : 0;
+    for (int i = 0; i < grid->outputs; i++) {
+        double leaves = layer->direct[i];
+        for (int k = 0; k < N; k++) {
+            leaves += layer->passed[i * STRIDE + k] * slab_weight(order, k);
+        }
+        for (int j = 0; j < grid->count; j++) {
+            reflected[i * STRIDE + j] = layer->reflected[i * STRIDE + j] + leaves * share * lit[j];
+        }
+    }
 }
 
 void slab_make(const struct slab_order *order, double depth_m, struct slab *out)

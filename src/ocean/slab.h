@@ -73,6 +73,6 @@ double slab_weight(const struct slab_order *order, int k);
 
 // Solves (1 - A) x = b for the nodes: A is [SLAB_NODES][SLAB_NODES], destroyed; b is
 // [SLAB_NODES][count] with the stride SLAB_MAX, and becomes x.
-void slab_solve(double *a, double *b, int count);
+void slab_solve(double *restrict a, double *restrict b, int count);
 
 #endif // OCEAN_SLAB_H
