@@ -53,16 +53,51 @@ void daylight_albedo(const struct medium *medium, const struct spectrum *albedo,
     rgb[2] = divide(reflected.b, light.b);
 }
 
+// Values of which a curve through all of them is made at a place: `weight` for each from `first`
+// on, cubic as Catmull and Rom 1974, straight at the ends, even beyond them.
+struct blend {
+    int first;
+    double weight[4];
+};
+
+static struct blend blend_at(double x, int count)
+{
+    const double at = fmax(0, fmin(x, count - 1));
+    const int left = (int)fmin(at, count - 2);
+    const double t = at - left;
+    double w[4] = {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t),
+                   t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)};
+    // What is beyond an end goes on as it came.
+    if (left == 0) {
+        w[1] += 2 * w[0], w[2] -= w[0], w[0] = 0;
+    }
+    if (left == count - 2) {
+        w[2] += 2 * w[3], w[1] -= w[3], w[3] = 0;
+    }
+    return (struct blend){left - 1, {w[0], w[1], w[2], w[3]}};
+}
+
 void daylight_weights(const struct medium *medium, const double *nm, int count,
                       double rgb[3][DAYLIGHT_MAX_WEIGHTS])
 {
+    struct cie_xyz sum[DAYLIGHT_MAX_WEIGHTS] = {{0, 0, 0}};
+    for (double from = CIE_FIRST_NM; from < CIE_LAST_NM; from += STEP_NM) {
+        const double light = spectrum_mean(&medium->star_irradiance, from, from + STEP_NM);
+        const struct cie_xyz seen = cie_observer_integral(from, from + STEP_NM);
+        const double x = (from + 0.5 * STEP_NM - nm[0]) / (nm[1] - nm[0]);
+        const struct blend blend = blend_at(x, count);
+        for (int n = 0; n < 4; n++) {
+            const int k = blend.first + n;
+            if (k >= 0 && k < count) {
+                sum[k].x += light * blend.weight[n] * seen.x;
+                sum[k].y += light * blend.weight[n] * seen.y;
+                sum[k].z += light * blend.weight[n] * seen.z;
+            }
+        }
+    }
     const struct cie_rgb light = cie_rgb_of_xyz(integrate(medium, NULL));
     for (int k = 0; k < count; k++) {
-        const struct spectrum hat = {.constant = 1,
-                                     .hat = {.from_nm = k > 0 ? nm[k - 1] : 0,
-                                             .peak_nm = nm[k],
-                                             .to_nm = k + 1 < count ? nm[k + 1] : 0}};
-        const struct cie_rgb reflected = cie_rgb_of_xyz(integrate(medium, &hat));
+        const struct cie_rgb reflected = cie_rgb_of_xyz(sum[k]);
         rgb[0][k] = light.r > 0 ? reflected.r / light.r : 0;
         rgb[1][k] = light.g > 0 ? reflected.g / light.g : 0;
         rgb[2][k] = light.b > 0 ? reflected.b / light.b : 0;

@@ -19,8 +19,8 @@ void daylight_ground_albedo(const struct medium *medium, float rgb[3]);
 // The same of any albedo.
 void daylight_albedo(const struct medium *medium, const struct spectrum *albedo, float rgb[3]);
 
-// Linear sRGB relative to white in the star's light of a spectrum that runs straight between its
-// values at these wavelengths: per value. Not clamped.
+// Linear sRGB relative to white in the star's light of a smooth spectrum with values at these
+// wavelengths, two at least, evenly spaced: per value. Not clamped.
 enum { DAYLIGHT_MAX_WEIGHTS = 48 };
 void daylight_weights(const struct medium *medium, const double *nm, int count,
                       double rgb[3][DAYLIGHT_MAX_WEIGHTS]);

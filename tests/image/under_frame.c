@@ -89,6 +89,30 @@ static void cross_the_surface(trl_renderer *renderer)
     }
 }
 
+// Where facets begin to mirror all, one picture row after the other, light falls without steps:
+// they stand for all facets between them.
+static void fade_the_window(trl_renderer *renderer)
+{
+    enum { ROWS = 160 };
+    static float drawn[4 * ROWS];
+    const struct look look = {"", 3, 41, 50}; // the window's edge is 41.7 degrees high
+    trl_view view = find_view(&look);
+    view.vertical_fov_rad = 0.5;
+    view.heading_rad = 2;
+    assert_int_equal(trl_renderer_draw(renderer, &view, 1, ROWS, 0), TRL_OK);
+    assert_int_equal(trl_renderer_read_radiance(renderer, drawn), TRL_OK);
+    double largest = 0;
+    for (int i = 2; i < ROWS - 1; i++) {
+        const float *green = drawn + 4 * (size_t)i + 1;
+        const double step = (double)green[0] - (double)green[-4];
+        const double around = ((double)green[4] - (double)green[-8]) / 3;
+        largest = fmax(largest, fabs(step - around));
+    }
+    const double range = fabs((double)drawn[1] - (double)drawn[4 * (ROWS - 1) + 1]);
+    printf("the window's edge: steps of %.2f %% of %g\n", 100 * largest / range, range);
+    assert_true(largest < 0.01 * range);
+}
+
 static void eyes_see_what_paths_find(void **state)
 {
     (void)state;
@@ -114,6 +138,7 @@ static void eyes_see_what_paths_find(void **state)
         }
         if (w == 0) {
             cross_the_surface(renderer);
+            fade_the_window(renderer);
         }
         trl_renderer_destroy(&renderer);
         trl_scene_destroy(&scene);

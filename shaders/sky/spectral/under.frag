@@ -151,19 +151,29 @@ float star_window(vec3 direction, vec3 normal, float mss)
            sea_slope_density(mu, mss) / (mu2 * mu2) * seen / (view_mu * square);
 }
 
-// A facet of the surface, from below.
-vec4 facet_light(Light light, vec3 direction, vec3 facet)
+// A facet of the surface, from below. It stands for facets whose cosines of incidence are as much
+// as `width` larger or less: of them a part is in the window, or its edge would be seen once for
+// each.
+vec4 facet_light(Light light, vec3 direction, vec3 facet, float width)
 {
-    float cosine = max(dot(direction, facet), 0.0);
-    float back = fresnel_reflectance(cosine, 1.0 / u_under.w);
+    float index = u_under.w;
+    float cosine = dot(direction, facet);
     vec3 mirrored = direction - 2.0 * cosine * facet;
     float down = clamp(-dot(mirrored, u_eye_up), 0.0, 1.0);
     vec4 water = light_at(light, column_of(mirrored), VIEWS + 0.5 + down * (RISING - 1.0));
+    float low = max(cosine - width, sqrt(1.0 - 1.0 / (index * index)));
+    float high = cosine + width;
+    float part = clamp((high - low) / (2.0 * width), 0.0, 1.0);
     vec4 sky = vec4(0.0);
-    if (back < 1.0) {
-        sky = sky_bands(refract(direction, -facet, u_under.w)) * (u_under.w * u_under.w);
+    float passes = 0.0;
+    if (part > 0.0) {
+        float middle = min(0.5 * (low + high), 1.0);
+        float turn = (middle - cosine) / max(1.0 - cosine * cosine, 1.0e-6);
+        vec3 turned = normalize(facet + turn * (direction - cosine * facet));
+        sky = sky_bands(refract(direction, -turned, index)) * (index * index);
+        passes = part * (1.0 - fresnel_reflectance(middle, 1.0 / index));
     }
-    return mix(sky, water, back);
+    return mix(water, sky, passes);
 }
 
 // Of all facets as large as they are seen, at that distance; the star loses what its peak has.
@@ -172,6 +182,7 @@ vec4 surface_light(Light light, vec3 direction, vec3 normal, float mss, float le
     vec3 side =
         normalize(cross(normal, abs(normal.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
     vec3 other = cross(normal, side);
+    float apart = 0.33 * sqrt(mss); // half of how far apart slopes are, one way
     vec4 sum = vec4(0.0);
     float weights = 0.0;
     for (int i = 0; i < RINGS * SPOKES; i++) {
@@ -181,7 +192,9 @@ vec4 surface_light(Light light, vec3 direction, vec3 normal, float mss, float le
         vec3 facet = normal - slope * (cos(turn) * side + sin(turn) * other);
         float seen = max(dot(direction, facet), 0.0);
         if (seen > 0.0) {
-            sum += seen * facet_light(light, direction, normalize(facet));
+            facet = normalize(facet);
+            float sine = sqrt(max(1.0 - seen * seen / (1.0 + slope * slope), 0.0));
+            sum += seen * facet_light(light, direction, facet, apart * sine + 1.0e-5);
             weights += seen;
         }
     }
