@@ -113,7 +113,8 @@ void frame_sea_albedo(const struct frame_sea *sea, float albedo[3])
             below += v->rgb_from_spectrum[c][k] *
                      (double)v->spectrum[SKY_SEA_ANGLES / 2][SKY_SEA_ROWS - 1][0][k];
         }
-        const double clear = surface + fmax(below, 0) * (1 - surface);
+        // A colour beside those of sRGB, or of water that loses nothing, has others.
+        const double clear = surface + fmax(0, fmin(1, below)) * (1 - surface);
         const double white = v ? sea->sea.white_share : 0;
         albedo[c] = (float)(clear + white * (sea->sea.white_albedo - clear));
     }

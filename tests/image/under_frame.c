@@ -113,6 +113,29 @@ static void fade_the_window(trl_renderer *renderer)
     assert_true(largest < 0.01 * range);
 }
 
+// A centimetre above the surface and below it, along it and down, without the star's disc: all is
+// light of the sky and of the sea.
+static void look_about_at_the_surface(trl_renderer *renderer)
+{
+    static const double depths_m[] = {-0.01, 0.01}, pitches_deg[] = {0, -30, -89};
+    for (size_t i = 0; i < 6; i++) {
+        static float drawn[4 * PIXELS];
+        const struct look look = {"", depths_m[i / 3], pitches_deg[i % 3], 60};
+        const trl_view view = find_view(&look);
+        assert_int_equal(trl_renderer_draw(renderer, &view, WIDTH, HEIGHT, 0), TRL_OK);
+        assert_int_equal(trl_renderer_read_radiance(renderer, drawn), TRL_OK);
+        double least = HUGE_VAL, most = 0;
+        for (int k = 0; k < PIXELS; k++) {
+            const double green = (double)drawn[4 * k + 1];
+            assert_true(isfinite(green) && isfinite((double)drawn[4 * k]));
+            least = fmin(least, green);
+            most = fmax(most, green);
+        }
+        printf("%g m deep, %g deg: %g to %g\n", look.depth_m, look.pitch_deg, least, most);
+        assert_true(least > 0 && most < 1e3 * least);
+    }
+}
+
 static void eyes_see_what_paths_find(void **state)
 {
     (void)state;
@@ -139,6 +162,7 @@ static void eyes_see_what_paths_find(void **state)
         if (w == 0) {
             cross_the_surface(renderer);
             fade_the_window(renderer);
+            look_about_at_the_surface(renderer);
         }
         trl_renderer_destroy(&renderer);
         trl_scene_destroy(&scene);
