@@ -31,6 +31,7 @@ struct work {
     struct slab_medium medium;
     struct slab_grid grid;
     double inner[COUNT];
+    double kernel[2][N][SUNS]; // of this order, from the suns: on its way, and turned back
     struct slab octave[UNDER_OCTAVES + 2]; // depths of 2^(k - 1) of the first level
     struct slab top;
     double below[UNDER_DEPTHS][SLAB_MAX * SLAB_MAX]; // reflection by what is below that depth
@@ -38,12 +39,10 @@ struct work {
     double bed[N * COLUMNS];                         // what goes up from the bed
 };
 
-static void begin(struct volume_under *under, int wavelength, struct work *w)
+// What all wavelengths have.
+static void begin(struct volume_under *under, struct work *w)
 {
-    const struct volume_column *column = &under->column[wavelength];
     w->under = under;
-    w->wavelength = wavelength;
-    volume_medium_make(column, &under->phase[wavelength], &w->medium);
     double suns[SUNS];
     for (int i = 0; i < SUNS; i++) {
         const double mu = under->critical + (1 - under->critical) * i / (SUNS - 1);
@@ -53,6 +52,29 @@ static void begin(struct volume_under *under, int wavelength, struct work *w)
     w->grid.outputs = N; // nobody looks toward the suns
     for (int i = 0; i < COUNT; i++) {
         w->inner[i] = fresnel_reflectance(w->grid.mu[i], 1 / under->index);
+    }
+}
+
+// The order's kernel between two directions, of light on its way or turned back.
+static double kernel(const struct work *w, int m, int a, int b, bool is_turned)
+{
+    double sum = 0;
+    for (int l = m; l < SLAB_MOMENTS; l++) {
+        const int lm = harmonic_index(l, m);
+        const double term = w->medium.moment[l] * w->grid.harmonic[a][lm] * w->grid.harmonic[b][lm];
+        sum += is_turned && (l + m) % 2 ? -term : term;
+    }
+    return sum;
+}
+
+static void find_kernels(struct work *w, int m)
+{
+    for (int turned = 0; turned < 2; turned++) {
+        for (int i = 0; i < N; i++) {
+            for (int c = 0; c < SUNS; c++) {
+                w->kernel[turned][i][c] = kernel(w, m, i, N + c, turned);
+            }
+        }
     }
 }
 
@@ -169,18 +191,6 @@ static void light_depth(struct work *w, const struct slab_order *order, const st
     add_applied(order, below, down, up);
 }
 
-// The order's kernel between two directions, of light on its way or turned back.
-static double kernel(const struct work *w, int m, int a, int b, bool is_turned)
-{
-    double sum = 0;
-    for (int l = m; l < SLAB_MOMENTS; l++) {
-        const int lm = harmonic_index(l, m);
-        const double term = w->medium.moment[l] * w->grid.harmonic[a][lm] * w->grid.harmonic[b][lm];
-        sum += is_turned && (l + m) % 2 ? -term : term;
-    }
-    return sum;
-}
-
 // Of a line of sight of that optical length from a depth, per scattering: as volume_under_once.
 static double once(const struct work *w, int sun, double depth, double way, double along)
 {
@@ -205,7 +215,7 @@ static void store_line(struct work *w, const struct slab_order *order, int depth
         for (int c = 0; c < COLUMNS; c++) {
             const double added = light[i * COLUMNS + c] - exp(-way) * far[i * COLUMNS + c];
             if (c < SUNS) {
-                const double one = w->medium.albedo * kernel(w, order->m, i, N + c, !line) *
+                const double one = w->medium.albedo * w->kernel[!line][i][c] *
                                    once(w, c, w->medium.extinction_per_m * here_m, way, along);
                 out->order[order->m].source[depth][c][line][i] = (float)((added - one) / taken);
             } else if (order->m == 0) {
@@ -234,7 +244,7 @@ static void store_rising(struct work *w, const struct slab_order *order)
     const double bed = w->medium.extinction_per_m * w->under->depth_m;
     for (int i = 0; i < N; i++) {
         for (int c = 0; c < SUNS; c++) {
-            const double one = w->medium.albedo * kernel(w, order->m, i, N + c, true) *
+            const double one = w->medium.albedo * w->kernel[1][i][c] *
                                once(w, c, 0, bed / w->grid.mu[i], w->grid.mu[i]);
             light->order[order->m].rising[c][i] = (float)(w->up[i * COLUMNS + c] - one);
         }
@@ -271,6 +281,7 @@ static void store_point(struct work *w, const struct slab_order *order, int dept
 static void fill(struct work *w, int m)
 {
     const struct slab_order order = {&w->grid, &w->medium, m};
+    find_kernels(w, m);
     make_layers(w, &order);
     light_surface(w, &order);
     for (int i = LAST; i >= 0; i--) {
@@ -318,16 +329,29 @@ static trl_result light_up(const trl_context *ctx, struct volume_under *under)
 {
     const int tasks = under->count * UNDER_ORDERS;
     struct work *works = mem_alloc(ctx, (size_t)omp_get_max_threads(), sizeof *works);
-    if (!works) {
+    struct slab_medium *media = mem_alloc(ctx, (size_t)under->count, sizeof *media);
+    if (!works || !media) {
+        mem_free(ctx, works);
+        mem_free(ctx, media);
         return TRL_ERROR_MEMORY;
     }
-#pragma omp parallel for schedule(dynamic)
-    for (int task = 0; task < tasks; task++) {
+#pragma omp parallel
+    {
         struct work *work = &works[omp_get_thread_num()];
-        begin(under, task / UNDER_ORDERS, work);
-        fill(work, task % UNDER_ORDERS);
+        begin(under, work);
+#pragma omp for
+        for (int k = 0; k < under->count; k++) {
+            volume_medium_make(&under->column[k], &under->phase[k], &media[k]);
+        }
+#pragma omp for schedule(dynamic)
+        for (int task = 0; task < tasks; task++) {
+            work->wavelength = task / UNDER_ORDERS;
+            work->medium = media[work->wavelength];
+            fill(work, task % UNDER_ORDERS);
+        }
     }
     mem_free(ctx, works);
+    mem_free(ctx, media);
     return TRL_OK;
 }
 
