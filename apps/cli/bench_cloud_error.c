@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // How far drawn clouds are from traced ones: a field of cumulus at noon, at sunset and against the
-// sun, luminance pixel by pixel.
+// sun, luminance pixel by pixel, and where it is off: in what is dark or bright.
 #include "bench.h"
 
 #include "difference.h"
@@ -31,20 +31,29 @@ struct cloud_error {
     float *traced, *noise; // PIXELS * 4
 };
 
+struct luminance {
+    double drawn, traced, noise;
+};
+
 // Errors of the primaries of a pixel come from the same paths: together at most their sum.
-static trl_result add_errors(const struct cloud_error *e, const char *name, const float *drawn)
+static void find_luminances(const struct cloud_error *e, const float *drawn, struct luminance *out)
 {
-    double sum = 0;
-    double sum_drawn = 0;
-    double size = 0;
-    double noise = 0;
     for (size_t i = 0; i < PIXELS; i++) {
-        const double truth = difference_luminance(e->traced + 4 * i);
-        const double got = difference_luminance(drawn + 4 * i);
-        sum += truth / PIXELS;
-        sum_drawn += got / PIXELS;
-        size += fabs(got - truth) / truth / PIXELS;
-        noise += difference_luminance(e->noise + 4 * i) / truth / PIXELS;
+        out[i] = (struct luminance){difference_luminance(drawn + 4 * i),
+                                    difference_luminance(e->traced + 4 * i),
+                                    difference_luminance(e->noise + 4 * i)};
+    }
+}
+
+static trl_result add_errors(const struct bench_job *job, const char *name,
+                             const struct luminance *at)
+{
+    double sum = 0, sum_drawn = 0, size = 0, noise = 0;
+    for (size_t i = 0; i < PIXELS; i++) {
+        sum += at[i].traced / PIXELS;
+        sum_drawn += at[i].drawn / PIXELS;
+        size += fabs(at[i].drawn - at[i].traced) / at[i].traced / PIXELS;
+        noise += at[i].noise / at[i].traced / PIXELS;
     }
     noise *= sqrt(2 / 3.14159265358979323846); // mean size of a normal error
     const struct bench_sample rows[] = {
@@ -55,7 +64,45 @@ static trl_result add_errors(const struct cloud_error *e, const char *name, cons
         {name, "beyond noise", "%", 100 * sqrt(fmax(0, size * size - noise * noise))}};
     trl_result result = TRL_OK;
     for (size_t i = 0; i < sizeof rows / sizeof *rows && result == TRL_OK; i++) {
-        result = bench_add(e->job->table, rows[i]);
+        result = bench_add(job->table, rows[i]);
+    }
+    return result;
+}
+
+static int compare_drawn(const void *a, const void *b)
+{
+    const double x = ((const struct luminance *)a)->drawn, y = ((const struct luminance *)b)->drawn;
+    return (x > y) - (x < y);
+}
+
+// Of pixels in the order of what is drawn, which has no noise. Standard deviations are over the
+// mean; that of what is traced without what its noise adds.
+static trl_result add_contrast(const struct bench_job *job, const char *name, struct luminance *at)
+{
+    static const char *const thirds[] = {"darkest third as drawn, over traced", "middle third",
+                                         "brightest third"};
+    double sum[2] = {0}, square[2] = {0}, noise = 0;
+    trl_result result = TRL_OK;
+    qsort(at, PIXELS, sizeof *at, compare_drawn);
+    for (size_t third = 0; third < 3 && result == TRL_OK; third++) {
+        double drawn = 0, traced = 0;
+        for (size_t i = third * (PIXELS / 3); i < (third + 1) * (PIXELS / 3); i++) {
+            drawn += at[i].drawn / PIXELS;
+            traced += at[i].traced / PIXELS;
+            square[0] += at[i].drawn * at[i].drawn / PIXELS;
+            square[1] += at[i].traced * at[i].traced / PIXELS;
+            noise += at[i].noise * at[i].noise / PIXELS;
+        }
+        sum[0] += drawn;
+        sum[1] += traced;
+        const struct bench_sample row = {name, thirds[third], "", drawn / traced};
+        result = bench_add(job->table, row);
+    }
+    const struct bench_sample rows[] = {
+        {name, "contrast, drawn", "", sqrt(fmax(square[0] / (sum[0] * sum[0]) - 1, 0))},
+        {name, "contrast, traced", "", sqrt(fmax((square[1] - noise) / (sum[1] * sum[1]) - 1, 0))}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && result == TRL_OK; i++) {
+        result = bench_add(job->table, rows[i]);
     }
     return result;
 }
@@ -91,7 +138,10 @@ static trl_result compare_look(const struct cloud_error *e, const struct cloud_l
         result = shot_take(&desc, &drawn);
     }
     if (result == TRL_OK) {
-        result = add_errors(e, look->name, drawn.radiance);
+        struct luminance at[PIXELS];
+        find_luminances(e, drawn.radiance, at);
+        result = add_errors(e->job, look->name, at);
+        result = result == TRL_OK ? add_contrast(e->job, look->name, at) : result;
         bench_show(e->job);
     }
     shot_finish(&drawn);

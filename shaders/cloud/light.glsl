@@ -20,7 +20,13 @@ struct Lights {
     vec4 sun, above, below;
 };
 
-Lights lights_at(vec3 place)
+// The layer's diffuse depth, at its cover.
+float whole_depth(CloudLayer layer, float cover)
+{
+    return CLOUD_DIFFUSE_DEPTH * layer.grain.y * (layer.shell.y - layer.shell.x) * cover;
+}
+
+Lights lights_at(CloudLayer layer, vec3 place, float cover)
 {
     float altitude_m = cloud_altitude(place);
     vec3 up = normalize(u_eye_up * u_eye.x + place);
@@ -33,8 +39,8 @@ Lights lights_at(vec3 place)
     float sun = sky_map_sunlight(sun_mu, lowest, u_ground_light.z);
     vec2 day = vec2(centre(sun_coordinate(sun_mu), u_light_texel.y), altitude);
     lights.sun = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
-    // Clouds take light of all directions as they come, the horizon's too.
-    vec4 even = exp(textureLod(u_evenness, day, 0.0)) * (1.0 / SHARED_PI);
+    float level = cloud_level_share(whole_depth(layer, cover));
+    vec4 even = exp(textureLod(u_evenness, day, 0.0) * level) * (1.0 / SHARED_PI);
     lights.above = exp(textureLod(u_skylight, day, 0.0)) * even;
     lights.below = exp(textureLod(u_rising, day, 0.0)) * even;
     return lights;
@@ -78,7 +84,8 @@ Shares shares_at(CloudLayer layer, vec3 place, float cover, Lighting lighting)
     vec3 rise = lighting.up * side_m;
     CloudAround around;
     around.side = CLOUD_DIFFUSE_DEPTH * layer.grain.y * side_m;
-    around.whole = CLOUD_DIFFUSE_DEPTH * layer.grain.y * thick_m * cover;
+    around.whole = whole_depth(layer, cover);
+    around.cover = cover;
     around.above = cloud_coarse_density(layer, place + rise, cover, box);
     around.below = cloud_coarse_density(layer, place - rise, cover, box);
     Shares shares;

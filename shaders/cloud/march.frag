@@ -262,8 +262,8 @@ void main()
                 }
                 float at = moment / taken;
                 vec3 lit_at = ray.direction * at;
-                Lights lights =
-                    lights_by_clouds(layer, lights_at(lit_at), lit_at, max(sun_mu, 0.0));
+                Lights lights = lights_by_clouds(layer, lights_at(layer, lit_at, weather), lit_at,
+                                                 max(sun_mu, 0.0));
                 Air before = air_before(ray, at);
                 vec3 light = before.scattered;
 #ifdef MARCH

@@ -160,12 +160,13 @@ SHARED_FN Number cloud_phase(Number cos_angle, Number narrow)
 }
 
 // The cloud around a place as two streams see it: diffuse depths of a side of the boxes that were
-// looked at, and of the layer's height at its cover, if they were full; and how full those above
-// and below are.
+// looked at, and of the layer's height at its cover, if they were full; how full those above and
+// below are; and the cover of a level around there.
 SHARED_STRUCT(CloudAround)
 {
     Number side, whole;
     Number above, below;
+    Number cover;
 };
 
 // How far above and below a place, and how wide: of a layer of tiles of `scale`.
@@ -176,18 +177,23 @@ SHARED_FN Length cloud_side(Length thickness, Length scale)
 
 // Light that was scattered more than once, toward the eye per irradiance of the star. A few
 // scatterings leave a peak, of `phase`, where there is enough cloud for them; after many, light
-// has no direction and falls as in two streams. What a level face gets, as in Eddington's
-// mu (2 + 3 mu) / (4 pi), is flattened as sides of clouds get more of a low star. `depth` is that
-// toward the star nearby, `far` that of other clouds. Numbers are those of tools/clouds.
+// has no direction and falls as in two streams. A closed deck gets what level ground does; sides
+// of broken clouds get more of a low star, and through them clouds where there are few lose more.
+// `depth` is that toward the star nearby, `far` that of other clouds. Numbers are those of
+// tools/clouds.
 SHARED_FN Number cloud_several(CloudAround around, Number phase, Number sun_mu, Number depth,
                                Number far)
 {
-    Number enough = 1.0 - exp(-36.3 * around.side * (0.1 + around.above + around.below));
-    Number few = 0.761 * phase * enough * exp(-0.135 * depth - 0.278 * far);
+    Number enough = 1.0 - exp(-34.3 * around.side * (0.1 + around.above + around.below));
+    Number few = 0.787 * phase * enough * exp(-0.142 * depth - 0.813 * far);
     Number mu = shared_max(sun_mu, 0.02);
-    Number turned = around.side * (0.712 + 1.588 * around.below + 0.274 * around.above);
-    Number many = 0.458 * mu / (1.0 + 1.15 * mu) * turned / (1.0 + turned) /
-                  (1.0 + 0.0265 * depth) * exp(-0.0324 * far);
+    Number turned = around.side * (0.618 + 0.709 * around.below + 0.651 * around.above);
+    Number closed2 = around.cover * around.cover;
+    Number closed = closed2 * closed2 * closed2 * closed2;
+    Number lit = mu * (2.19 / (1.0 + 5.08 * mu) * (1.0 - closed) + 0.468 * closed);
+    Number wide = around.cover / (around.cover + 0.181);
+    Number many =
+        lit * wide * turned / (1.0 + turned) / (1.0 + 0.0616 * depth) * exp(-0.0445 * far);
     return few + many;
 }
 
@@ -200,6 +206,15 @@ SHARED_FN Number cloud_from_above(CloudAround around, Number height, Number view
     Number under = 5.22 * around.side * around.below + 1.39 * around.whole * high;
     Number tilt = exp(1.88 * view_mu);
     return (tilt + under) / (tilt + 1.0 / tilt + over + under);
+}
+
+// Thin layers take light of all directions as it comes, the horizon's too; deep ones that of a
+// plane, as level light meets other clouds first. What is left of the difference, for a layer's
+// diffuse depth: paths that leave within 17 degrees of level are this part of the way from those of
+// a plane (0.09) to all (0.3) within 0.12 but in fog, 0.2, in the fields of tools/clouds.
+SHARED_FN Number cloud_level_share(Number whole)
+{
+    return 1.0 / (1.0 + whole);
 }
 
 // A part of a step that is as dense all along, integrated: (1 - exp(-t)) / t, without cancellation.

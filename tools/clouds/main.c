@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // Finds the numbers of cloud_several and cloud_from_above (shaders/shared/cloud.glsl) from light by
-// paths in six kinds of layers, and says how far the laws as they stand are off in fields that
+// paths in seven kinds of layers, and says how far the laws as they stand are off in fields that
 // the numbers were not found in.
 //
-//     fit-clouds [PLACES [PATHS]]     of each of the layers; 400 and 64: a minute of processor
+//     fit-clouds [PLACES [PATHS]]     of each of the layers; 400 and 64
 #include "fit.h"
 
 #include "shared/cloud.glsl"
@@ -22,9 +22,22 @@ struct field {
 };
 
 static const struct field fields[] = {
+    {"cumulus",
+     {CLOUD_CUMULUS, 900, 2600, 0.1, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE},
+     21,
+     false},
+    {"cumulus",
+     {CLOUD_CUMULUS, 900, 2600, 0.2, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE},
+     22,
+     false},
     {"cumulus", {CLOUD_CUMULUS, 900, 2600, 0.3, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE}, 0, false},
+    {"cumulus", {CLOUD_CUMULUS, 900, 2600, 0.5, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE}, 1, false},
     {"cumulus", {CLOUD_CUMULUS, 900, 2600, 0.6, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE}, 4, false},
     {"cumulus", {CLOUD_CUMULUS, 900, 2600, 0.8, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE}, 7, false},
+    {"cumulus",
+     {CLOUD_CUMULUS, 900, 2600, 0.95, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE},
+     9,
+     false},
     {"thin cumulus",
      {CLOUD_CUMULUS, 900, 2600, 0.6, 0.01, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE},
      2,
@@ -43,7 +56,13 @@ static const struct field fields[] = {
      0,
      false},
     {"fog", {CLOUD_FOG, 0, 120, 0.9, 0.015, 5000, 0, 0, 0, CLOUD_EVERYWHERE}, 0, false},
+    {"cumulus",
+     {CLOUD_CUMULUS, 900, 2600, 0.15, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE},
+     23,
+     true},
     {"cumulus", {CLOUD_CUMULUS, 900, 2600, 0.4, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE}, 5, true},
+    {"cumulus", {CLOUD_CUMULUS, 900, 2600, 0.7, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE}, 12, true},
+    {"cumulus", {CLOUD_CUMULUS, 900, 2600, 0.9, 0.04, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE}, 11, true},
     {"thin cumulus",
      {CLOUD_CUMULUS, 900, 2600, 0.5, 0.01, 8000, 0, 0, 0.9, CLOUD_EVERYWHERE},
      5,
@@ -56,8 +75,11 @@ enum { FIELDS = sizeof fields / sizeof *fields };
 
 static struct CloudAround around_of(const struct cloud_sample *s)
 {
-    return (struct CloudAround){
-        .side = s->side, .whole = s->whole, .above = s->around_above, .below = s->around_below};
+    return (struct CloudAround){.side = s->side,
+                                .whole = s->whole,
+                                .above = s->around_above,
+                                .below = s->around_below,
+                                .cover = s->cover};
 }
 
 // cloud_several with its numbers in their order.
@@ -69,8 +91,12 @@ static double several_law(const double *n, const struct cloud_sample *s)
                        exp(-fabs(n[2]) * s->depth - fabs(n[3]) * s->far);
     const double turned =
         s->side * fmax(fabs(n[4]) + fabs(n[5]) * s->around_below + n[6] * s->around_above, 0);
-    const double many = fabs(n[7]) * s->sun_mu / (1 + fabs(n[8]) * s->sun_mu) * turned /
-                        (1 + turned) / (1 + fabs(n[9]) * s->depth) * exp(-fabs(n[10]) * s->far);
+    const double wide = s->cover / (s->cover + fabs(n[11]));
+    const double closed = pow(s->cover, 8);
+    const double lit = s->sun_mu * (fabs(n[7]) / (1 + fabs(n[8]) * s->sun_mu) * (1 - closed) +
+                                    fabs(n[12]) * closed);
+    const double many = lit * wide * turned / (1 + turned) / (1 + fabs(n[9]) * s->depth) *
+                        exp(-fabs(n[10]) * s->far);
     return few + many;
 }
 
@@ -165,12 +191,13 @@ static trl_result run(const trl_context *ctx, size_t places, size_t paths)
         }
     }
     if (result == TRL_OK) {
-        const struct fit several = {"cloud_several",
-                                    several_law,
-                                    several_of,
-                                    0.03,
-                                    11,
-                                    {36, 0.7, 0.15, 0.3, 0.7, 1.6, 0.3, 0.45, 1.2, 0.03, 0.03}};
+        const struct fit several = {
+            "cloud_several",
+            several_law,
+            several_of,
+            0.03,
+            13,
+            {34, 0.79, 0.14, 0.81, 0.62, 0.71, 0.65, 2.2, 5.1, 0.062, 0.045, 0.18, 0.47}};
         const struct fit above = {"cloud_from_above", above_law, above_of, 0.05, 3, {5, 1, 1}};
         print_fit(several, samples, fitted);
         print_fit(above, samples, fitted);

@@ -152,6 +152,7 @@ static void find_around(const struct sampler *s, struct vec3 place, struct vec3 
     out->far = far_depth(s, place, sun, reach_m);
     out->side = CLOUD_DIFFUSE_DEPTH * s->layer->extinction_per_m * side_m;
     out->whole = CLOUD_DIFFUSE_DEPTH * s->layer->extinction_per_m * s->thick_m * cover;
+    out->cover = cover;
     out->around_above = density_at(s, vec3_add(place, rise), side_m, cover);
     out->around_below = density_at(s, vec3_sub(place, rise), side_m, cover);
 }

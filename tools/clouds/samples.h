@@ -8,8 +8,8 @@
 
 struct cloud_sample {
     double sun_mu, view_mu, nu, height;
-    double depth, far;                              // toward the star, as the march looks; beyond
-    double side, whole, around_above, around_below; // as in CloudAround
+    double depth, far; // toward the star, as the march looks; beyond
+    double side, whole, around_above, around_below, cover; // as in CloudAround
     // Light toward the eye: of the star, scattered once, and more often with its error; the part of
     // an even sky's, the ground being black.
     double once, several, several_error, above, above_error;
