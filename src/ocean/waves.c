@@ -8,7 +8,7 @@
 #include <math.h>
 
 // Of the spectrum: from where nothing is, to waves that only a glance at one's feet resolves.
-static const double LONGEST_OF_PEAK = 0.55, SHORTEST_OF_PEAK = 3, SHORTEST_M = 0.2;
+static const double LONGEST_OF_PEAK = 0.55, SHORTEST_OF_PEAK = 3, SHORTEST_M = 0.12;
 // Compression along any course where all crests meet, at most: 1 would be a cusp.
 static const double MOST_COMPRESSION = 0.98;
 
