@@ -36,8 +36,8 @@ float find_end(ivec2 pixel)
 }
 
 // Of four from the first on; those of `offset` 0 stand at even pixels, of 1 at odd ones. Alike
-// within some per cent counts as one surface.
-vec4 join_four(sampler2D clouds, ivec2 pixel, int offset, bool is_mean)
+// within some per cent counts as one surface; `alike` is the part of them that are.
+vec4 join_four(sampler2D clouds, ivec2 pixel, int offset, bool is_mean, out float alike)
 {
     ivec2 last = textureSize(clouds, 0) - 1;
 #ifdef SURFACE
@@ -59,22 +59,54 @@ vec4 join_four(sampler2D clouds, ivec2 pixel, int offset, bool is_mean)
         sum += texelFetch(clouds, at, 0) * weight;
         weights += weight;
     }
+    alike = weights;
     return sum / weights;
 }
+
+#ifndef FILTER
+// Of what a mean of four has over those around it, how much is added.
+const float SHARPER = 1.0;
+
+// The mean of fours at a pixel, between theirs.
+vec4 find_joined(vec2 pixel)
+{
+    return textureLod(u_joined, 0.5 * pixel / vec2(textureSize(u_joined, 0)), 0.0);
+}
+
+// Means of fours are taken over four pixels, which takes the sharpness of edges; what each has over
+// those around it gives some of it back. They have no spread of rays, so none comes back, and what
+// stays between the least and the most of them makes no fringes.
+vec4 sharpen(vec4 joined, vec2 pixel)
+{
+    vec4 west = find_joined(pixel - vec2(2.0, 0.0));
+    vec4 east = find_joined(pixel + vec2(2.0, 0.0));
+    vec4 south = find_joined(pixel - vec2(0.0, 2.0));
+    vec4 north = find_joined(pixel + vec2(0.0, 2.0));
+    vec4 least = min(min(min(west, east), min(south, north)), joined);
+    vec4 most = max(max(max(west, east), max(south, north)), joined);
+    vec4 over = joined - 0.25 * (west + east + south + north);
+    return clamp(joined + SHARPER * over, least, most);
+}
+#endif
 
 void main()
 {
 #ifdef FILTER
-    out_clouds = join_four(u_clouds, 2 * ivec2(gl_FragCoord.xy) + 1, 0, true);
+    float alike;
+    out_clouds = join_four(u_clouds, 2 * ivec2(gl_FragCoord.xy) + 1, 0, true, alike);
 #else
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     out_clouds = vec4(0.0);
     // Loops, since branches save nothing.
     for (int once = 0; once < (u_sharp < 1.0 ? 1 : 0); once++) {
-        out_clouds += (1.0 - u_sharp) * join_four(u_joined, pixel, 1, false);
+        float alike;
+        vec4 joined = join_four(u_joined, pixel, 1, false, alike);
+        joined = alike < 0.9 ? joined : sharpen(joined, vec2(pixel));
+        out_clouds += (1.0 - u_sharp) * joined;
     }
     for (int once = 0; once < (u_sharp > 0.0 ? 1 : 0); once++) {
-        out_clouds += u_sharp * join_four(u_clouds, pixel, 0, false);
+        float alike;
+        out_clouds += u_sharp * join_four(u_clouds, pixel, 0, false, alike);
     }
 #endif
 }

@@ -155,7 +155,6 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
 static trl_result make_target(struct cloud_march *m, struct gpu_texture_desc *desc,
                               struct gpu_texture *texture, struct gpu_target *target)
 {
-    desc->filter = GPU_FILTER_NEAREST;
     const struct gpu_target_desc colors = {
         .label = desc->label, .color_count = 1, .colors[0].texture = texture};
     const trl_result result = gpu_texture_init(m->gpu, desc, texture);
@@ -170,6 +169,7 @@ static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *pi
     finish_targets(m);
     struct gpu_texture_desc desc = gpu_texture_desc_default();
     desc.label = "shade of clouds";
+    desc.filter = GPU_FILTER_NEAREST;
     desc.format = GPU_FORMAT_RG32F;
     desc.width = (picture->width + 1) / 2;
     desc.height = (picture->height + 1) / 2;
@@ -181,6 +181,7 @@ static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *pi
     }
     if (result == TRL_OK) {
         desc.label = "clouds joined";
+        desc.filter = GPU_FILTER_LINEAR; // join.frag looks between its texels
         result = make_target(m, &desc, &m->joined, &m->joined_target);
     }
     if (result != TRL_OK) {
