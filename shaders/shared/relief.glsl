@@ -140,9 +140,9 @@ SHARED_FN NoiseValue relief_fold(NoiseValue n, Number ridged)
     return v;
 }
 
-// Adds an octave of `size` m; `n` with its gradient per m. `contrast`: how much rougher ridges are
-// than valleys.
-SHARED_FN Relief relief_add(Relief r, NoiseValue v, Number size, Number contrast)
+// Adds an octave of `size` m; `v` with its gradient per m. `rough`: its size for slopes, with soil.
+// `contrast`: how much rougher ridges are than valleys.
+SHARED_FN Relief relief_add(Relief r, NoiseValue v, Number size, Number rough, Number contrast)
 {
     // With a continuous derivative: gullies follow the gradient, and would break where it jumps.
     Number t = shared_clamp(0.45 + 0.3 * contrast * r.past, 0.0, 1.0);
@@ -150,9 +150,9 @@ SHARED_FN Relief relief_add(Relief r, NoiseValue v, Number size, Number contrast
     Number weight = RELIEF_WEIGHT_LEAST + range * t * t * (3.0 - 2.0 * t);
     Number rate = range * 6.0 * t * (1.0 - t) * 0.3 * contrast * v.value;
     r.height += size * weight * v.value;
-    r.x += size * (weight * v.x + rate * r.past_x);
-    r.y += size * (weight * v.y + rate * r.past_y);
-    r.z += size * (weight * v.z + rate * r.past_z);
+    r.x += rough * (weight * v.x + rate * r.past_x);
+    r.y += rough * (weight * v.y + rate * r.past_y);
+    r.z += rough * (weight * v.z + rate * r.past_z);
     r.past = 0.5 * r.past + v.value;
     r.past_x = 0.5 * r.past_x + v.x;
     r.past_y = 0.5 * r.past_y + v.y;
@@ -189,7 +189,8 @@ SHARED_FN Relief relief_cut(Relief r, NoiseValue v, Number size)
 
 // Soil and gravel are rough whatever mountains are. Over lengths d from metres down natural ground
 // deviates by about d^0.6, with some degrees at 1 m (Shepard et al. 2001, J. Geophys. Res. 106,
-// 32777: Hurst exponents of 0.4 to 0.7, on Earth and Mars). `soil`: 1 on dry ground.
+// 32777: Hurst exponents of 0.4 to 0.7, on Earth and Mars). It is seen by its slopes: as heights,
+// an eye near the ground would want meshes of centimetres. `soil`: 1 on dry ground.
 #define RELIEF_SOIL_LOG2 6.0
 SHARED_FN Number relief_soil_size(Number size, Number log2_wave, Number soil)
 {

@@ -173,11 +173,11 @@ float noise_height_variance(NoiseView view)
 }
 
 // What is not seen of an octave, which made the height out of `before`, counts by its variances.
-Relief noise_hide(Relief r, int i, float size, float before, NoiseView view)
+Relief noise_hide(Relief r, int i, float size, float rough, float before, NoiseView view)
 {
     float seen = pow2(relief_seen(u_noise_size[i].x, view.footprint));
     float stands = u_noise_size[i].x > RELIEF_STAND_LOG2 ? 1.0 - seen : 0.0;
-    r.unseen += RELIEF_SLOPE2 * pow2(size * u_noise_place[i].w) * stands;
+    r.unseen += RELIEF_SLOPE2 * pow2(rough * u_noise_place[i].w) * stands;
     // Of a wave that is seen, its mean over a square keeps sinc^4: heights differ within a pixel.
     float within = 6.6 * pow2(exp2(view.footprint) * u_noise_place[i].w);
     float kept = max(1.0 - within, 0.0);
@@ -263,8 +263,9 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
 #endif
             float wave = u_noise_size[i].x;
             float soil = noise_soil(i, view);
-            float rough = part == 0 ? 1.0 : mix(u_noise_more.x, 1.0, r.cutting);
-            float size = relief_soil_size(noise_size(i, view) * rough, wave, soil);
+            float level = part == 0 ? 1.0 : mix(u_noise_more.x, 1.0, r.cutting);
+            float size = noise_size(i, view) * level;
+            float rough = relief_soil_size(size, wave, soil);
             float seen = relief_seen(wave, view.footprint);
             float before = r.height;
 #ifdef HAS_ROCK
@@ -272,11 +273,12 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
                 stones_add(n, wave, view.footprint, r.past, soil);
             }
 #endif
-            r = relief_add(r, relief_fold(n, view.ridged), size * seen, u_noise_form.x);
+            r = relief_add(r, relief_fold(n, view.ridged), size * seen, rough * seen,
+                           u_noise_form.x);
             float value = size > 0.0 ? seen * n.value : 0.0;
             r.tone += value * relief_tone(wave);
             r.shore += value / u_noise_place[i].w;
-            r = noise_hide(r, i, size, before, view);
+            r = noise_hide(r, i, size, rough, before, view);
             r = wave > RELIEF_STAND_LOG2 ? relief_stand(r) : r;
         }
         end = part == 2 ? end : i;
@@ -292,7 +294,7 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
             float seen = relief_seen(u_noise_size[i].x, view.footprint);
             float before = r.height;
             r = relief_cut(r, n, size * seen);
-            r = noise_hide(r, i, size, before, view);
+            r = noise_hide(r, i, size, size, before, view);
         }
         r = part == 0 && i > end ? relief_stand(r) : r;
     }

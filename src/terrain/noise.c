@@ -177,10 +177,11 @@ static Relief add_noise(const struct terrain_noise *noise, const struct noise_pl
     const double seen = relief_seen(log2_wave, place->log2_footprint);
     const double lacking = relief_lacking_of(log2_wave, place->data);
     const double level = i < noise->ends[1] ? 1 : noise->desc.level_roughness;
-    const double rough = level + (1 - level) * r.cutting;
-    const double size = relief_soil_size(g->amplitude_m * noise->size[i] * lacking * rough,
-                                         log2_wave, relief_soil(g->amplitude_m) * lacking);
-    r = relief_add(r, relief_fold(turn_back(noise, i, n), g->ridged), size * seen, CONTRAST);
+    const double size =
+        g->amplitude_m * noise->size[i] * lacking * (level + (1 - level) * r.cutting);
+    const double rough = relief_soil_size(size, log2_wave, relief_soil(g->amplitude_m) * lacking);
+    r = relief_add(r, relief_fold(turn_back(noise, i, n), g->ridged), size * seen, rough * seen,
+                   CONTRAST);
     const double value = size > 0 ? seen * n.value : 0;
     r.tone += value * relief_tone(log2_wave);
     r.shore += value * noise->wave_m[i];

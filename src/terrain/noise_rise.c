@@ -13,17 +13,14 @@ struct noise_reach noise_find_reach(const struct terrain_noise *noise, double am
 {
     double noises = 0, gullies = 0;
     for (int i = 0; i < noise->ends[2]; i++) {
-        const double size_m = amplitude_m * noise->size[i];
-        if (i >= noise->ends[0] && i < noise->ends[1]) {
-            gullies += size_m;
-        } else {
-            noises += relief_soil_size(size_m, noise->log2_wave[i], relief_soil(amplitude_m));
-        }
+        const bool is_gully = i >= noise->ends[0] && i < noise->ends[1];
+        *(is_gully ? &gullies : &noises) += noise->size[i];
     }
     // relief_fold: from 1 and -1 of plain noise to 0.23 and -1.33 of ridges.
     const double weight = RELIEF_WEIGHT_BOUND;
-    return (struct noise_reach){-(noises * weight * (1 + 0.35 * ridged) + gullies * NOISE_GULLIES),
-                                noises * weight * (1 - 0.77 * ridged) + gullies * NOISE_GULLIES};
+    return (struct noise_reach){
+        -amplitude_m * (noises * weight * (1 + 0.35 * ridged) + gullies * NOISE_GULLIES),
+        amplitude_m * (noises * weight * (1 - 0.77 * ridged) + gullies * NOISE_GULLIES)};
 }
 
 // Slopes per wavelength of octaves of size 1. Of a million random places one octave alone is never
@@ -55,24 +52,16 @@ static struct noise_range find_amplitudes(const struct terrain_noise *noise,
                                     relief_fullness(height + rise, full)};
 }
 
-static double size_of(const struct terrain_noise *noise, int octave, double amplitude_m)
-{
-    const double size_m = amplitude_m * noise->size[octave];
-    const bool is_gully = octave >= noise->ends[0] && octave < noise->ends[1];
-    return is_gully ? size_m
-                    : relief_soil_size(size_m, noise->log2_wave[octave], relief_soil(amplitude_m));
-}
-
 // Of an octave, with what data leave of it: here, and around.
 static struct noise_range find_sizes(const struct terrain_noise *noise, int octave,
                                      const struct noise_range *amplitudes, ReliefData here,
                                      const struct noise_around *around)
 {
-    const double wave = noise->log2_wave[octave];
+    const double size = noise->size[octave], wave = noise->log2_wave[octave];
     return (struct noise_range){
-        size_of(noise, octave, amplitudes->least) * relief_lacking(wave, around->log2_texel[0]),
-        size_of(noise, octave, amplitudes->here) * relief_lacking_of(wave, here),
-        size_of(noise, octave, amplitudes->most) * relief_lacking(wave, around->log2_texel[1])};
+        amplitudes->least * size * relief_lacking(wave, around->log2_texel[0]),
+        amplitudes->here * size * relief_lacking_of(wave, here),
+        amplitudes->most * size * relief_lacking(wave, around->log2_texel[1])};
 }
 
 struct noise_rise noise_find_rise(const struct terrain_noise *noise,
