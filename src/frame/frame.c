@@ -308,9 +308,9 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
     if (moon.is_main) {
         shading.sun_direction = moon.sight.direction;
     }
-    struct ground_extras extras = {.has_sky_view = sky->model->reads_sky_view,
-                                   .time_s = shown->time_s};
-    frame_sea_albedo(&frame->sea, extras.sea_albedo);
+    const struct ground_extras extras = {.has_sky_view = sky->model->reads_sky_view,
+                                         .sea_albedo = frame->sea.albedo,
+                                         .time_s = shown->time_s};
     trl_result result = ground_draw(&frame->ground, &shading, &extras, &frame->clock);
     struct sky_view view = {.camera = camera,
                             .highest_m = highest_m,

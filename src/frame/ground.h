@@ -100,9 +100,9 @@ TRL_MUST_USE trl_result ground_resize(struct ground *ground, uint32_t width, uin
 
 // Beside what every picture has.
 struct ground_extras {
-    bool has_sky_view;   // else the alphas of lights and region are what terrain/compose.h says
-    float sea_albedo[3]; // of the ocean, in daylight from everywhere
-    double time_s;       // of the ocean's waves
+    bool has_sky_view;       // else the alphas of lights and region are what terrain/compose.h says
+    const float *sea_albedo; // linear sRGB, of the ocean in light of an even sky
+    double time_s;           // of the ocean's waves
 };
 TRL_MUST_USE trl_result ground_draw(struct ground *ground, const struct camera *camera,
                                     const struct ground_extras *extras, struct frame_clock *clock);

@@ -92,6 +92,22 @@ struct frame_sea frame_sea_surface(const trl_context *ctx, const struct ocean_de
                                       .white_albedo = SEA_WHITECAP_ALBEDO}};
 }
 
+static void find_albedo(struct frame_sea *sea)
+{
+    const struct sky_sea_volume *v = sea->volume;
+    const double surface = sea_diffuse_reflectance(sea->sea.index);
+    for (int c = 0; c < 3; c++) {
+        double below = 0; // from straight up to grazing it hardly differs
+        for (int k = 0; k < SKY_SEA_WAVELENGTHS; k++) {
+            below += v->rgb_from_spectrum[c][k] *
+                     (double)v->spectrum[SKY_SEA_ANGLES / 2][SKY_SEA_ROWS - 1][0][k];
+        }
+        // A colour beside those of sRGB, or of water that loses nothing, has others.
+        const double clear = surface + fmax(0, fmin(1, below)) * (1 - surface);
+        sea->albedo[c] = (float)(clear + sea->sea.white_share * (sea->sea.white_albedo - clear));
+    }
+}
+
 trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
                           struct frame_sea *out)
 {
@@ -100,24 +116,10 @@ trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
     const trl_result result =
         ocean->is_there ? frame_sea_make_volume(ctx, ocean, &scene->medium, &out->volume) : TRL_OK;
     out->sea.volume = out->volume;
-    return result;
-}
-
-void frame_sea_albedo(const struct frame_sea *sea, float albedo[3])
-{
-    const struct sky_sea_volume *v = sea->volume;
-    const double surface = v ? sea_diffuse_reflectance(sea->sea.index) : 0;
-    for (int c = 0; c < 3; c++) {
-        double below = 0; // from straight up to grazing it hardly differs
-        for (int k = 0; v && k < SKY_SEA_WAVELENGTHS; k++) {
-            below += v->rgb_from_spectrum[c][k] *
-                     (double)v->spectrum[SKY_SEA_ANGLES / 2][SKY_SEA_ROWS - 1][0][k];
-        }
-        // A colour beside those of sRGB, or of water that loses nothing, has others.
-        const double clear = surface + fmax(0, fmin(1, below)) * (1 - surface);
-        const double white = v ? sea->sea.white_share : 0;
-        albedo[c] = (float)(clear + white * (sea->sea.white_albedo - clear));
+    if (out->volume) {
+        find_albedo(out);
     }
+    return result;
 }
 
 void frame_sea_finish(struct frame_sea *sea)

@@ -11,6 +11,9 @@ struct frame_sea {
     const trl_context *ctx;
     struct sky_sea sea; // with the volume, if it is there
     struct sky_sea_volume *volume;
+    // Part of the light of an even sky that the deep sea sends back: its surface, white caps, and
+    // what comes out of it; linear sRGB. 0 where there is no volume.
+    float albedo[3];
 };
 
 // Without what is below: no volume.
@@ -22,10 +25,6 @@ struct frame_sea frame_sea_surface(const trl_context *ctx, const struct ocean_de
 TRL_MUST_USE trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
                                        struct frame_sea *out);
 void frame_sea_finish(struct frame_sea *sea);
-
-// Part of the light of an even sky that the deep sea sends back: its surface, white caps, and what
-// comes out of it; linear sRGB. 0 where there is no ocean.
-void frame_sea_albedo(const struct frame_sea *sea, float albedo[3]);
 
 // The colours of water in that star's light. TRL_ERROR_MEMORY; free it with mem_free.
 TRL_MUST_USE trl_result frame_sea_make_volume(const trl_context *ctx,

@@ -36,6 +36,12 @@ void ground_light_of_star(const struct atmosphere *a, double highest_m, float *t
     }
 }
 
+static const lanes *moments_of(const struct moments *m, int level, int sun)
+{
+    const size_t row = (size_t)level * (size_t)m->suns + (size_t)sun;
+    return m->radiance + row * (size_t)harmonic_count(m->lmax);
+}
+
 // Half-space integral of the radiance's expansion: the clamped cosine has the Legendre moments pi,
 // 2 pi / 3, pi / 4, 0, -pi / 24 (l = 0, 1, 2, 3, 4), and only m = 0 counts for level ground. Cut
 // off at l = 4 it is rough where sky and ground differ much, so its change with altitude scales the
@@ -44,8 +50,7 @@ void ground_light_of_star(const struct atmosphere *a, double highest_m, float *t
 static lanes expand_irradiance(const struct moments *m, int level, int sun, int side)
 {
     static const double cosine_moment[] = {M_PI, 2 * M_PI / 3, M_PI / 4, 0, -M_PI / 24};
-    const int harmonics = harmonic_count(m->lmax);
-    const lanes *a = m->radiance + ((size_t)level * (size_t)m->suns + (size_t)sun) * harmonics;
+    const lanes *a = moments_of(m, level, sun);
     double harmonic[(OPTICS_MAX_DEGREE + 1) * (OPTICS_MAX_DEGREE + 2) / 2];
     harmonic_values(m->lmax, 1, harmonic);
     lanes sum = {0};
@@ -89,13 +94,11 @@ static lanes side_light(const struct atmosphere *a, int side, struct light_place
 // The mean radiance of all directions is the first moment.
 static lanes mean_radiance(const struct moments *m, struct light_place at)
 {
-    const int harmonics = harmonic_count(m->lmax);
-    const lanes *below =
-        m->radiance + ((size_t)at.level * (size_t)m->suns + (size_t)at.sun) * (size_t)harmonics;
-    const lanes *above = below + (size_t)m->suns * (size_t)harmonics;
-    double harmonic[(OPTICS_MAX_DEGREE + 1) * (OPTICS_MAX_DEGREE + 2) / 2];
-    harmonic_values(m->lmax, 1, harmonic);
-    return (below[0] + (above[0] - below[0]) * at.part) * (float)harmonic[0];
+    const lanes below = moments_of(m, at.level, at.sun)[0];
+    const lanes above = moments_of(m, at.level + 1, at.sun)[0];
+    double harmonic; // alike in all directions
+    harmonic_values(0, 1, &harmonic);
+    return (below + (above - below) * at.part) * (float)harmonic;
 }
 
 static lanes evenness(const struct atmosphere *a, struct light_place at)
