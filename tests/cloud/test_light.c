@@ -3,6 +3,7 @@
 // Clouds are as bright as paths, and flat ones as two streams, say: within what the law of light
 // inside them is off.
 #include "../frame/fixture.h"
+#include "scene.h"
 #include "shared/cloud.glsl"
 #include <terrella/reference.h>
 #include <terrella/renderer.h>
@@ -15,14 +16,7 @@
 enum { WIDTH = 12, HEIGHT = 8, FINE = 4, PATHS = 32, PIXELS = WIDTH * HEIGHT };
 static const double DEGREE = 3.14159265358979323846 / 180;
 
-static const char SCENE[] =
-    "{\"terrella\": 1, \"name\": \"cloudy\","
-    " \"star\": {\"spectral_irradiance\": 1.5, \"angular_radius_deg\": 0.27},"
-    " \"planet\": {\"radius_m\": 6371000, \"ground_albedo\": 0.1},"
-    " \"atmosphere\": {\"height_m\": 60000, \"constituents\": [{\"name\": \"air\","
-    "  \"scattering_per_m\": {\"power_law\": {\"at_nm\": 550, \"value\": 1e-5,"
-    "   \"exponent\": -4}}, \"profile\": {\"exponential\": {\"scale_height_m\": 8000}},"
-    "  \"phase\": \"rayleigh\"}]}, \"clouds\": {\"layers\": [%s]}}";
+static const char SCENE[] = CLOUD_SCENE ", \"clouds\": {\"layers\": [%s]}}";
 
 struct look {
     const char *name;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Clouds in pictures of a bare sphere with thin air.
 #include "../frame/fixture.h"
+#include "scene.h"
 #include <terrella/renderer.h>
 
 #include <math.h>
@@ -12,14 +13,7 @@
 enum { WIDTH = 48, HEIGHT = 32, FLOATS = 4 * WIDTH * HEIGHT };
 static const double DEGREE = 3.14159265358979323846 / 180;
 
-static const char scene_format[] =
-    "{\"terrella\": 1, \"name\": \"cloudy\","
-    " \"star\": {\"spectral_irradiance\": 1.5, \"angular_radius_deg\": 0.27},"
-    " \"planet\": {\"radius_m\": 6371000, \"ground_albedo\": 0.1},"
-    " \"atmosphere\": {\"height_m\": 60000, \"constituents\": [{\"name\": \"air\","
-    "  \"scattering_per_m\": {\"power_law\": {\"at_nm\": 550, \"value\": 1e-5,"
-    "   \"exponent\": -4}}, \"profile\": {\"exponential\": {\"scale_height_m\": 8000}},"
-    "  \"phase\": \"rayleigh\"}]}%s}";
+static const char scene_format[] = CLOUD_SCENE "%s}";
 
 static trl_view look(double altitude_m, double pitch_deg)
 {

@@ -8,22 +8,16 @@
 #include <stdio.h>
 
 static const double DEGREE = 3.14159265358979323846 / 180;
-static const double R = 6e6;
 enum { RANGES = 5 };
-
-static struct biome_range any(void)
-{
-    return (struct biome_range){-1e9, 1e9, 1};
-}
 
 static struct biome white(void)
 {
     return (struct biome){.albedo = {0.8f, 0.8f, 0.8f},
-                          .altitude_m = any(),
-                          .slope = any(),
-                          .latitude_deg = any(),
-                          .temperature_C = any(),
-                          .moisture = any()};
+                          .altitude_m = FIXTURE_ANY,
+                          .slope = FIXTURE_ANY,
+                          .latitude_deg = FIXTURE_ANY,
+                          .temperature_C = FIXTURE_ANY,
+                          .moisture = FIXTURE_ANY};
 }
 
 static struct biome_range *range_of(struct biome *b, int i)
@@ -82,24 +76,10 @@ static void test_later_ones_lie_over_earlier_ones(void **state)
 // are in pictures only.
 static struct surface_desc make_planet(void)
 {
-    struct surface_desc desc = surface_desc_default();
-    desc.radius_m = R;
-    desc.noise = (struct noise_desc){.seed = 5,
-                                     .form = NOISE_ERODED,
-                                     .octaves = NOISE_MAX_OCTAVES,
-                                     .wavelength_m = 147000,
-                                     .mountain_m = 20000,
-                                     .gully_m = 10000,
-                                     .lacunarity = 2,
-                                     .hurst = 1,
-                                     .smallest_m = 8,
-                                     .level_roughness = 0.25};
-    desc.continents = (struct continents_desc){.seed = 5,
-                                               .radius_m = R,
-                                               .wavelength_m = 6e6,
-                                               .height_m = 4000,
-                                               .amplitude_m = 1500,
-                                               .form = NOISE_ERODED};
+    struct surface_desc desc = fixture_invent(5);
+    desc.noise.smallest_m = 8;
+    desc.continents.height_m = 4000;
+    desc.continents.amplitude_m = 1500;
     desc.biomes = (struct biomes){.count = 5, .climate = {30, -30, 0.006}};
     struct biome *list = desc.biomes.list;
     const float albedos[][3] = {{0.3f, 0.3f, 0.3f},
@@ -131,7 +111,7 @@ static void test_pictures_have_the_cpus_colours(void **state)
     enum { PLACES = 24 };
     double least[3] = {1, 1, 1}, most[3] = {0}, worst = 0;
     for (int i = 0; i < PLACES; i++) {
-        struct camera_place place = {89 * sin(2.3 * i), 137.5 * i, R, 0, 0, -90, 0.5};
+        struct camera_place place = {89 * sin(2.3 * i), 137.5 * i, desc.radius_m, 0, 0, -90, 0.5};
         place.altitude_m =
             surface_altitude(&without, vec3_normalize(fixture_camera(&place).position_m)) + 500;
         const struct camera camera = fixture_camera(&place);

@@ -87,27 +87,56 @@ static const double PLACES[][3] = {
     {30, 39.4, 0},
 };
 
-static void water_ends_where_mask_and_heights_say(void **state)
+// One place as the CPU knows it, and as it is drawn from above.
+struct both {
+    double water, depth_code;
+    struct composed drawn;
+};
+
+struct coasts {
+    const struct fixture *f;
+    struct surface on_cpu, on_gpu;
+};
+
+static void coasts_init(const struct fixture *f, struct coasts *out)
 {
-    const struct fixture *f = *state;
     char paths[LAYERS][128];
     struct surface_layer_desc layers[LAYERS];
     const struct surface_desc desc = describe(f, paths, layers);
-    struct surface on_cpu, on_gpu;
-    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &on_cpu), TRL_OK);
-    assert_int_equal(surface_init(f->gpu, &desc, &on_gpu), TRL_OK);
+    out->f = f;
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &out->on_cpu), TRL_OK);
+    assert_int_equal(surface_init(f->gpu, &desc, &out->on_gpu), TRL_OK);
+}
+
+static void coasts_finish(struct coasts *coasts)
+{
+    surface_finish(&coasts->on_gpu);
+    surface_finish(&coasts->on_cpu);
+}
+
+// `place`: latitude and longitude.
+static struct both coasts_at(const struct coasts *coasts, const double *place, double altitude_m)
+{
+    struct both both;
+    const struct vec3 up = vec3_from_lat_lon(place[0] * DEGREE, place[1] * DEGREE);
+    both.water = surface_water(&coasts->on_cpu, up, &both.depth_code);
+    const struct camera_place above = {place[0], place[1], R, altitude_m, 0, -90, 20};
+    const struct camera camera = fixture_camera(&above);
+    both.drawn = fixture_compose_middle(coasts->f, &coasts->on_gpu, &camera);
+    return both;
+}
+
+static void water_ends_where_mask_and_heights_say(void **state)
+{
+    struct coasts coasts;
+    coasts_init(*state, &coasts);
     for (size_t i = 0; i < sizeof PLACES / sizeof PLACES[0]; i++) {
         const double *p = PLACES[i];
-        double code;
-        const struct vec3 up = vec3_from_lat_lon(p[0] * DEGREE, p[1] * DEGREE);
-        assert_close(surface_water(&on_cpu, up, &code), p[2], 0);
-        const struct camera_place place = {p[0], p[1], R, 2000, 0, -90, 20};
-        const struct camera camera = fixture_camera(&place);
-        const struct composed c = fixture_compose_middle(f, &on_gpu, &camera);
-        assert_close(c.albedo_water[3] / 255.0, p[2], 0.01);
+        const struct both c = coasts_at(&coasts, p, 2000);
+        assert_close(c.water, p[2], 0);
+        assert_close(c.drawn.albedo_water[3] / 255.0, p[2], 0.01);
     }
-    surface_finish(&on_gpu);
-    surface_finish(&on_cpu);
+    coasts_finish(&coasts);
 }
 
 // Latitude, longitude, depth in m.
@@ -121,27 +150,18 @@ static const double DEPTHS[][3] = {
 
 static void water_shelves_toward_its_shore(void **state)
 {
-    const struct fixture *f = *state;
-    char paths[LAYERS][128];
-    struct surface_layer_desc layers[LAYERS];
-    const struct surface_desc desc = describe(f, paths, layers);
-    struct surface on_cpu, on_gpu;
-    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &on_cpu), TRL_OK);
-    assert_int_equal(surface_init(f->gpu, &desc, &on_gpu), TRL_OK);
+    struct coasts coasts;
+    coasts_init(*state, &coasts);
     for (size_t i = 0; i < sizeof DEPTHS / sizeof DEPTHS[0]; i++) {
         const double *p = DEPTHS[i];
-        double code;
-        surface_water(&on_cpu, vec3_from_lat_lon(p[0] * DEGREE, p[1] * DEGREE), &code);
-        const struct camera_place place = {p[0], p[1], R, 600, 0, -90, 20};
-        const struct camera camera = fixture_camera(&place);
-        const struct composed c = fixture_compose_middle(f, &on_gpu, &camera);
-        const double drawn_m = sea_code_depth(c.lights[3] / 255.0);
-        printf("at %g, %g: %.2f m, drawn %.2f m\n", p[0], p[1], sea_code_depth(code), drawn_m);
-        assert_close(sea_code_depth(code), p[2], 0.05);
+        const struct both c = coasts_at(&coasts, p, 600);
+        const double known_m = sea_code_depth(c.depth_code);
+        const double drawn_m = sea_code_depth(c.drawn.lights[3] / 255.0);
+        printf("at %g, %g: %.2f m, drawn %.2f m\n", p[0], p[1], known_m, drawn_m);
+        assert_close(known_m, p[2], 0.05);
         assert_close(drawn_m, p[2], 0.1 * p[2]); // GPUs know places to 1 / 256 of a texel
     }
-    surface_finish(&on_gpu);
-    surface_finish(&on_cpu);
+    coasts_finish(&coasts);
 }
 
 // Detail goes on below the data, up to a lake's shore.

@@ -57,6 +57,29 @@ int fixture_tear_down(void **state)
     return removed == 0 && live == 0 ? 0 : 1;
 }
 
+struct surface_desc fixture_invent(uint32_t seed)
+{
+    struct surface_desc desc = surface_desc_default();
+    desc.radius_m = 6e6;
+    desc.noise = (struct noise_desc){.seed = seed,
+                                     .form = NOISE_ERODED,
+                                     .octaves = NOISE_MAX_OCTAVES,
+                                     .wavelength_m = 147000,
+                                     .mountain_m = 20000,
+                                     .gully_m = 10000,
+                                     .lacunarity = 2,
+                                     .hurst = 1,
+                                     .smallest_m = 0.2,
+                                     .level_roughness = 0.25};
+    desc.continents = (struct continents_desc){.seed = seed,
+                                               .radius_m = 6e6,
+                                               .wavelength_m = 6e6,
+                                               .height_m = 5000,
+                                               .amplitude_m = 2500,
+                                               .form = NOISE_ERODED};
+    return desc;
+}
+
 struct writer {
     const char *path;
     const struct raster_place *place;

@@ -11,43 +11,23 @@ static const double DEGREE = 3.14159265358979323846 / 180;
 static const double SUN_DEG = 40;
 enum { LEVELS = 5, SIDE = PICTURE_SIDE };
 
-static struct biome_range any(void)
-{
-    return (struct biome_range){-1e9, 1e9, 1};
-}
-
 static struct biome make_biome(float albedo, double slope)
 {
     return (struct biome){.albedo = {albedo, albedo, albedo},
                           .variation = 0.15,
-                          .altitude_m = any(),
+                          .altitude_m = FIXTURE_ANY,
                           .slope = {slope, 1e9, 0.2},
-                          .latitude_deg = any(),
-                          .temperature_C = any(),
-                          .moisture = any()};
+                          .latitude_deg = FIXTURE_ANY,
+                          .temperature_C = FIXTURE_ANY,
+                          .moisture = FIXTURE_ANY};
 }
 
 // Plains, of a soil and of a rock half as bright.
 static struct surface_desc plains(void)
 {
-    struct surface_desc desc = surface_desc_default();
-    desc.radius_m = 6e6;
-    desc.noise = (struct noise_desc){.seed = 3,
-                                     .form = NOISE_ERODED,
-                                     .octaves = NOISE_MAX_OCTAVES,
-                                     .wavelength_m = 147000,
-                                     .mountain_m = 20000,
-                                     .gully_m = 10000,
-                                     .lacunarity = 2,
-                                     .hurst = 1,
-                                     .smallest_m = 0.03,
-                                     .level_roughness = 0.25};
-    desc.continents = (struct continents_desc){.seed = 3,
-                                               .radius_m = 6e6,
-                                               .wavelength_m = 6e6,
-                                               .height_m = 5000,
-                                               .amplitude_m = 1000,
-                                               .form = NOISE_ERODED};
+    struct surface_desc desc = fixture_invent(3);
+    desc.noise.smallest_m = 0.03;
+    desc.continents.amplitude_m = 1000;
     desc.biomes.count = 2;
     desc.biomes.list[0] = make_biome(0.3f, -1e9);
     desc.biomes.list[1] = make_biome(0.15f, 0.7);

@@ -16,26 +16,10 @@ enum { PLACES = 64 };
 
 static struct surface_desc invent(enum noise_form form, double ocean_share)
 {
-    struct surface_desc desc = surface_desc_default();
-    desc.radius_m = 6e6;
-    desc.noise = (struct noise_desc){.seed = 3,
-                                     .form = form,
-                                     .octaves = 24,
-                                     .wavelength_m = 147000,
-                                     .mountain_m = 20000,
-                                     .gully_m = 10000,
-                                     .lacunarity = 2,
-                                     .hurst = 1,
-                                     .smallest_m = 0.2,
-                                     .level_roughness = 0.25,
-                                     .has_sea = ocean_share > 0};
-    desc.continents = (struct continents_desc){.seed = 3,
-                                               .radius_m = 6e6,
-                                               .wavelength_m = 6e6,
-                                               .height_m = 5000,
-                                               .amplitude_m = 2500,
-                                               .ocean_share = ocean_share,
-                                               .form = form};
+    struct surface_desc desc = fixture_invent(3);
+    desc.noise.form = desc.continents.form = form;
+    desc.noise.has_sea = ocean_share > 0;
+    desc.continents.ocean_share = ocean_share;
     return desc;
 }
 
