@@ -141,7 +141,7 @@ SHARED_FN Number relief_folded(Number ridged, Number roundness)
 }
 
 // Folded noise: a ridge where the noise is 0. Of nearly the same deviation as the noise, and mean
-// 0: of 2 million places the root has means of 0.180 to 0.240, linear in the crest's width to 0.005.
+// 0: of 2 million places the root's means are 0.180 to 0.240, linear in the crest's width to 0.005.
 SHARED_FN NoiseValue relief_fold(NoiseValue n, Number ridged, Number roundness)
 {
     Number crest = 0.035 + 0.105 * roundness;

@@ -227,6 +227,55 @@ static void what_a_frame_uses_stays(void **state)
     planet_finish(&p);
 }
 
+static struct pyramid_tile tile_of(const struct planet *p, uint32_t index)
+{
+    const uint32_t columns = p->pyramid.levels[0].columns;
+    return (struct pyramid_tile){0, index % columns, index / columns};
+}
+
+// Without using it.
+static bool is_there(const struct planet *p, uint32_t index)
+{
+    const struct atlas_texture *t = &p->atlas.textures[0];
+    const struct pyramid_tile wanted = tile_of(p, index);
+    bool is_found = false;
+    for (uint32_t i = 0; i < t->side * t->side; i++) {
+        const struct pyramid_tile *tile = &t->slots[i].tile;
+        is_found = is_found || (tile->x == wanted.x && tile->y == wanted.y);
+    }
+    return is_found;
+}
+
+// Tiles are used in another order than they came in; they go in that of their use.
+static void the_longest_unused_goes_first(void **state)
+{
+    const struct fixture *f = *state;
+    struct planet p = {0};
+    planet_init(f, 1, &p);
+    const uint32_t slots = atlas_capacity(&p.atlas, 0);
+    const uint32_t all = p.pyramid.levels[0].columns * p.pyramid.levels[0].rows;
+    for (uint32_t i = 0; i < slots; i++) {
+        const struct pyramid_tile tile = tile_of(&p, i);
+        atlas_begin(&p.atlas);
+        assert_true(put(&p, 0, tile.x, tile.y));
+    }
+    for (uint32_t i = 0; i < slots; i++) {
+        const struct pyramid_tile tile = tile_of(&p, i * 7 % slots);
+        atlas_begin(&p.atlas);
+        assert_true(atlas_touch(&p.atlas, 0, &tile));
+    }
+    assert_true(all > slots + 10);
+    for (uint32_t i = 0; i < all - slots; i++) {
+        const struct pyramid_tile tile = tile_of(&p, slots + i);
+        atlas_begin(&p.atlas);
+        assert_true(put(&p, 0, tile.x, tile.y));
+        for (uint32_t k = 0; k < slots; k++) {
+            assert_true(is_there(&p, k * 7 % slots) == (k > i));
+        }
+    }
+    planet_finish(&p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -234,6 +283,8 @@ int main(void)
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(ancestors_stand_in, fixture_set_up, fixture_tear_down),
         cmocka_unit_test_setup_teardown(what_a_frame_uses_stays, fixture_set_up, fixture_tear_down),
+        cmocka_unit_test_setup_teardown(the_longest_unused_goes_first, fixture_set_up,
+                                        fixture_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
