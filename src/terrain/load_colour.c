@@ -14,7 +14,10 @@ enum {
     SHORE = 1,       // texels of land that the sea may have coloured
     DRY = 26,        // of 255: at most this much water
     STATE_SEA = 255, // not reached yet; below: in which step a texel had its colour
-    STATE_SHORE = 254
+    STATE_SHORE = 254,
+    // Texels that are looked at together, more than any of them can change by.
+    BLOCK_WIDTH = 64,
+    BLOCK_HEIGHT = 16
 };
 
 struct painter {
@@ -22,6 +25,10 @@ struct painter {
     const struct layer_frame *frame;
     uint8_t *rgba;
     uint8_t *states, *next; // owned; of each texel
+    uint32_t columns, rows; // of blocks
+    uint8_t *kinds;         // owned; what is in each block
+    bool *is_open;          // owned; whether a texel of it can change
+    const struct land_mean *mean;
 };
 
 // The only mask, where its rows are those of the picture.
@@ -100,72 +107,125 @@ static bool is_beside_sea(const struct painter *p, const size_t around[8])
     return is_beside;
 }
 
-// Marks in `next` what the next step changes: land beside the sea, or texels of that state that
-// have a neighbour with a colour.
-static void mark(const struct painter *p, int step, uint8_t state)
+// What happens to a texel in a step.
+typedef void (*painter_change)(const struct painter *p, int step, uint32_t x, uint32_t y);
+
+// All texels that can change: those of blocks that have land and sea, or beside such.
+static void change_all(const struct painter *p, painter_change change, int step)
 {
     const struct layer_frame *f = p->frame;
-#pragma omp parallel for schedule(dynamic, 16)
-    for (uint32_t y = 0; y < f->height; y++) {
-        for (uint32_t x = 0; x < f->width; x++) {
-            const size_t i = (size_t)y * f->width + x;
-            size_t around[8];
-            p->next[i] = 0;
-            if (p->states[i] == state) {
-                find_around(f, x, y, around);
-                p->next[i] =
-                    state == 0 ? is_beside_sea(p, around) : sum_around(p, around, step, NULL) > 0;
+#pragma omp parallel for schedule(dynamic, 4)
+    for (uint32_t block = 0; block < p->columns * p->rows; block++) {
+        const uint32_t x0 = block % p->columns * BLOCK_WIDTH,
+                       y0 = block / p->columns * BLOCK_HEIGHT;
+        for (uint32_t y = y0; p->is_open[block] && y < f->height && y < y0 + BLOCK_HEIGHT; y++) {
+            for (uint32_t x = x0; x < f->width && x < x0 + BLOCK_WIDTH; x++) {
+                change(p, step, x, y);
             }
         }
+    }
+}
+
+// Marks land beside the sea in `next`.
+static void mark_shore(const struct painter *p, int step, uint32_t x, uint32_t y)
+{
+    (void)step;
+    const size_t i = (size_t)y * p->frame->width + x;
+    size_t around[8];
+    p->next[i] = 0;
+    if (p->states[i] == 0) {
+        find_around(p->frame, x, y, around);
+        p->next[i] = is_beside_sea(p, around);
+    }
+}
+
+static void set_shore(const struct painter *p, int step, uint32_t x, uint32_t y)
+{
+    (void)step;
+    const size_t i = (size_t)y * p->frame->width + x;
+    p->states[i] = p->next[i] ? STATE_SHORE : p->states[i];
+}
+
+// Marks what the step changes: texels that have a neighbour with a colour, first of the shore.
+static void mark(const struct painter *p, int step, uint32_t x, uint32_t y)
+{
+    const size_t i = (size_t)y * p->frame->width + x;
+    size_t around[8];
+    p->next[i] = 0;
+    if (p->states[i] == (step <= SHORE ? STATE_SHORE : STATE_SEA)) {
+        find_around(p->frame, x, y, around);
+        p->next[i] = sum_around(p, around, step, NULL) > 0;
+    }
+}
+
+static void paint_marked(const struct painter *p, int step, uint32_t x, uint32_t y)
+{
+    const size_t i = (size_t)y * p->frame->width + x;
+    size_t around[8];
+    int sum[3] = {0};
+    if (p->next[i]) {
+        find_around(p->frame, x, y, around);
+        const int count = sum_around(p, around, step, sum);
+        for (int c = 0; c < 3; c++) {
+            p->rgba[4 * i + (size_t)c] = (uint8_t)((sum[c] + count / 2) / count);
+        }
+    }
+}
+
+static void set_marked(const struct painter *p, int step, uint32_t x, uint32_t y)
+{
+    const size_t i = (size_t)y * p->frame->width + x;
+    p->states[i] = p->next[i] ? (uint8_t)step : p->states[i];
+}
+
+// What is left of the shore are islands, of which no texel is sure: they look like the land around.
+static void paint_island(const struct painter *p, int step, uint32_t x, uint32_t y)
+{
+    const size_t i = (size_t)y * p->frame->width + x;
+    if (p->states[i] == STATE_SHORE) {
+        land_mean_at(p->mean, x, y, p->rgba + 4 * i);
+        p->states[i] = (uint8_t)step;
     }
 }
 
 static void paint_step(const struct painter *p, int step)
 {
-    const struct layer_frame *f = p->frame;
-#pragma omp parallel for schedule(dynamic, 16)
-    for (uint32_t y = 0; y < f->height; y++) {
-        for (uint32_t x = 0; x < f->width; x++) {
-            const size_t i = (size_t)y * f->width + x;
-            size_t around[8];
-            int sum[3] = {0};
-            if (p->next[i]) {
-                find_around(f, x, y, around);
-                const int count = sum_around(p, around, step, sum);
-                for (int c = 0; c < 3; c++) {
-                    p->rgba[4 * i + (size_t)c] = (uint8_t)((sum[c] + count / 2) / count);
-                }
-            }
-        }
-    }
+    change_all(p, mark, step);
+    change_all(p, paint_marked, step);
+    change_all(p, set_marked, step);
 }
 
-static void set_marked(const struct painter *p, int state)
+// 1 where a block has land, 2 where it has sea, 3 both.
+static void find_kinds(const struct painter *p)
 {
-    const size_t count = (size_t)p->frame->width * p->frame->height;
+    const struct layer_frame *f = p->frame;
 #pragma omp parallel for
-    for (size_t i = 0; i < count; i++) {
-        p->states[i] = p->next[i] ? (uint8_t)state : p->states[i];
-    }
-}
-
-// What is left of the shore are islands, of which no texel is sure: they look like the land around.
-static void paint_islands(const struct painter *p, const struct land_mean *mean, int step)
-{
-    const struct layer_frame *f = p->frame;
-#pragma omp parallel for schedule(dynamic, 16)
-    for (uint32_t y = 0; y < f->height; y++) {
-        for (uint32_t x = 0; x < f->width; x++) {
-            const size_t i = (size_t)y * f->width + x;
-            if (p->states[i] == STATE_SHORE) {
-                land_mean_at(mean, x, y, p->rgba + 4 * i);
-                p->states[i] = (uint8_t)step;
+    for (uint32_t row = 0; row < p->rows; row++) {
+        for (uint32_t y = row * BLOCK_HEIGHT; y < f->height && y < (row + 1) * BLOCK_HEIGHT; y++) {
+            for (uint32_t x = 0; x < f->width; x++) {
+                const bool is_sea = p->states[(size_t)y * f->width + x] == STATE_SEA;
+                p->kinds[row * p->columns + x / BLOCK_WIDTH] |= is_sea ? 2 : 1;
             }
         }
     }
 }
 
-static trl_result paint(const struct painter *p)
+// Blocks of the border always: what is beside them may be far in the raster.
+static void open_blocks(const struct painter *p)
+{
+    for (uint32_t y = 0; y < p->rows; y++) {
+        for (uint32_t x = 0; x < p->columns; x++) {
+            const bool is_border = x == 0 || y == 0 || x + 1 == p->columns || y + 1 == p->rows;
+            int kinds = is_border ? 3 : 0;
+            for (uint32_t k = 0; k < 9 && !is_border; k++) {
+                kinds |= p->kinds[(y + k / 3 - 1) * p->columns + x + k % 3 - 1];
+            }
+            p->is_open[y * p->columns + x] = kinds == 3;
+        }
+    }
+}
+
+static trl_result paint(struct painter *p)
 {
     const struct layer_frame *f = p->frame;
     const struct layer_frame *mask = find_level_mask(p);
@@ -173,24 +233,23 @@ static trl_result paint(const struct painter *p)
     for (uint32_t y = 0; y < f->height; y++) {
         find_dry_row(p, mask, y);
     }
-    mark(p, 0, 0);
-    set_marked(p, STATE_SHORE);
+    find_kinds(p);
+    open_blocks(p);
+    change_all(p, mark_shore, 0);
+    change_all(p, set_shore, 0);
     struct land_mean mean;
     const trl_result result = land_mean_init(p->surface->ctx, f, p->rgba, p->states, &mean);
     if (result != TRL_OK) {
         return result;
     }
+    p->mean = &mean;
     for (int step = 1; step <= SHORE; step++) {
-        mark(p, step, STATE_SHORE);
         paint_step(p, step);
-        set_marked(p, step);
     }
-    paint_islands(p, &mean, SHORE);
+    change_all(p, paint_island, SHORE);
     land_mean_finish(&mean);
     for (int step = SHORE + 1; step <= SHORE + REACH; step++) {
-        mark(p, step, STATE_SEA);
         paint_step(p, step);
-        set_marked(p, step);
     }
     return TRL_OK;
 }
@@ -201,12 +260,19 @@ trl_result load_paint_shore(const void *user, const struct terrain_layer *layer,
     if (s->counts[SURFACE_WATER] == 0 || !s->depth.is_told || layer->cover.is_there) {
         return TRL_OK;
     }
-    const size_t count = (size_t)layer->frame.width * layer->frame.height;
-    struct painter p = {.surface = s, .frame = &layer->frame, .rgba = rgba};
-    p.states = mem_alloc(s->ctx, count, 1);
-    p.next = mem_alloc(s->ctx, count, 1);
-    const trl_result result = p.states && p.next ? paint(&p) : TRL_ERROR_MEMORY;
+    const struct layer_frame *f = &layer->frame;
+    struct painter p = {.surface = s, .frame = f, .rgba = rgba};
+    p.columns = (f->width + BLOCK_WIDTH - 1) / BLOCK_WIDTH;
+    p.rows = (f->height + BLOCK_HEIGHT - 1) / BLOCK_HEIGHT;
+    p.states = mem_alloc(s->ctx, (size_t)f->width * f->height, 1);
+    p.next = mem_alloc(s->ctx, (size_t)f->width * f->height, 1);
+    p.kinds = mem_alloc(s->ctx, (size_t)p.columns * p.rows, 1);
+    p.is_open = mem_alloc(s->ctx, (size_t)p.columns * p.rows, sizeof *p.is_open);
+    const bool is_all = p.states && p.next && p.kinds && p.is_open;
+    const trl_result result = is_all ? paint(&p) : TRL_ERROR_MEMORY;
     mem_free(s->ctx, p.states);
     mem_free(s->ctx, p.next);
+    mem_free(s->ctx, p.kinds);
+    mem_free(s->ctx, p.is_open);
     return result;
 }

@@ -35,6 +35,16 @@ static bool note_altitude(double altitude_m, uint8_t *code)
     return altitude_m < 0;
 }
 
+// The codes of all heights that shorts can be, 0 where none is: a globe has fifty million.
+static uint8_t *make_codes(const struct surface *surface, const struct terrain_layer *layer)
+{
+    uint8_t *codes = mem_alloc(surface->ctx, UINT16_MAX + 1, 1);
+    for (int i = INT16_MIN; codes && i <= INT16_MAX; i++) {
+        note_altitude(layer->heights.scale * i + layer->heights.offset_m, &codes[(uint16_t)i]);
+    }
+    return codes;
+}
+
 // Whether a row of a mask along a circle of latitude can meet the layer at all.
 static bool is_met(const struct layer_frame *mask, const struct layer_frame *f, uint32_t y)
 {
@@ -123,6 +133,7 @@ struct noter {
     const struct mask_row *row;
     const struct terrain_layer *layer;
     int64_t same;
+    const int16_t *shorts;       // of the same row, where there are codes of them; or NULL
     struct stretch stretches[3]; // of this row and those beside it
 };
 
@@ -162,12 +173,22 @@ static bool is_dry(const struct mask_row *row, uint32_t x)
 
 // Texels of the mask take the depth where they are. Codes are interpolated, so land beside the sea
 // takes that of the sea there, and so does what rises out of it.
-static void note_row(const struct mask_row *row, const struct terrain_layer *layer)
+static void note_row(const struct mask_row *row, const struct terrain_layer *layer,
+                     const uint8_t *codes)
 {
-    struct noter n = {row, layer, find_same_row(row->frame, &layer->frame, row->y), {{.end = 0}}};
+    struct noter n = {
+        .row = row, .layer = layer, .same = find_same_row(row->frame, &layer->frame, row->y)};
+    if (codes && n.same >= 0) {
+        n.shorts = layer->heights.shorts + layer_texel_index(&layer->frame, 0, n.same);
+    }
     for (uint32_t x = 0; x < row->frame->width; x++) {
         bool is_noted = is_dry(row, x);
         x += is_noted ? BLOCK - 1 : 0;
+        if (!is_noted && n.shorts && row->water[x]) {
+            const uint8_t code = codes[(uint16_t)n.shorts[x]];
+            row->codes[x] = code > 0 ? code : row->codes[x];
+            is_noted = code > 0;
+        }
         for (int i = 0; i < STEP_COUNT && !is_noted; i++) {
             if (is_water(row, x, STEPS[i])) {
                 is_noted = note_altitude(find_altitude(&n, x, STEPS[i]), row->codes + x);
@@ -194,6 +215,7 @@ void load_note_depths(struct surface *surface, const struct terrain_layer *layer
     if (blend_is_change(layer->mode)) {
         return;
     }
+    uint8_t *codes = layer->heights.shorts ? make_codes(surface, layer) : NULL;
     for (size_t i = 0; i < surface->counts[SURFACE_WATER]; i++) {
         const struct layer_frame *mask = &surface->layers[SURFACE_WATER][i].frame;
         uint8_t *depths = is_known(surface, mask, layer) ? NULL : surface->depths[i];
@@ -202,10 +224,11 @@ void load_note_depths(struct surface *surface, const struct terrain_layer *layer
             if (is_met(mask, &layer->frame, y)) {
                 const size_t first = layer_texel_index(mask, 0, y);
                 const struct mask_row row = {mask, y, surface->masks[i] + first, depths + first};
-                note_row(&row, layer);
+                note_row(&row, layer, codes);
             }
         }
     }
+    mem_free(surface->ctx, codes);
 }
 
 trl_result load_upload_depths(struct surface *surface)
