@@ -16,8 +16,7 @@ enum {
     STATE_SEA = 255, // not reached yet; below: in which step a texel had its colour
     STATE_SHORE = 254,
     // Texels that are looked at together, more than any of them can change by.
-    BLOCK_WIDTH = 64,
-    BLOCK_HEIGHT = 16
+    BLOCK = 16
 };
 
 struct painter {
@@ -114,12 +113,11 @@ typedef void (*painter_change)(const struct painter *p, int step, uint32_t x, ui
 static void change_all(const struct painter *p, painter_change change, int step)
 {
     const struct layer_frame *f = p->frame;
-#pragma omp parallel for schedule(dynamic, 4)
+#pragma omp parallel for schedule(dynamic, 64)
     for (uint32_t block = 0; block < p->columns * p->rows; block++) {
-        const uint32_t x0 = block % p->columns * BLOCK_WIDTH,
-                       y0 = block / p->columns * BLOCK_HEIGHT;
-        for (uint32_t y = y0; p->is_open[block] && y < f->height && y < y0 + BLOCK_HEIGHT; y++) {
-            for (uint32_t x = x0; x < f->width && x < x0 + BLOCK_WIDTH; x++) {
+        const uint32_t x0 = block % p->columns * BLOCK, y0 = block / p->columns * BLOCK;
+        for (uint32_t y = y0; p->is_open[block] && y < f->height && y < y0 + BLOCK; y++) {
+            for (uint32_t x = x0; x < f->width && x < x0 + BLOCK; x++) {
                 change(p, step, x, y);
             }
         }
@@ -201,10 +199,10 @@ static void find_kinds(const struct painter *p)
     const struct layer_frame *f = p->frame;
 #pragma omp parallel for
     for (uint32_t row = 0; row < p->rows; row++) {
-        for (uint32_t y = row * BLOCK_HEIGHT; y < f->height && y < (row + 1) * BLOCK_HEIGHT; y++) {
+        for (uint32_t y = row * BLOCK; y < f->height && y < (row + 1) * BLOCK; y++) {
             for (uint32_t x = 0; x < f->width; x++) {
                 const bool is_sea = p->states[(size_t)y * f->width + x] == STATE_SEA;
-                p->kinds[row * p->columns + x / BLOCK_WIDTH] |= is_sea ? 2 : 1;
+                p->kinds[row * p->columns + x / BLOCK] |= is_sea ? 2 : 1;
             }
         }
     }
@@ -262,8 +260,8 @@ trl_result load_paint_shore(const void *user, const struct terrain_layer *layer,
     }
     const struct layer_frame *f = &layer->frame;
     struct painter p = {.surface = s, .frame = f, .rgba = rgba};
-    p.columns = (f->width + BLOCK_WIDTH - 1) / BLOCK_WIDTH;
-    p.rows = (f->height + BLOCK_HEIGHT - 1) / BLOCK_HEIGHT;
+    p.columns = (f->width + BLOCK - 1) / BLOCK;
+    p.rows = (f->height + BLOCK - 1) / BLOCK;
     p.states = mem_alloc(s->ctx, (size_t)f->width * f->height, 1);
     p.next = mem_alloc(s->ctx, (size_t)f->width * f->height, 1);
     p.kinds = mem_alloc(s->ctx, (size_t)p.columns * p.rows, 1);
