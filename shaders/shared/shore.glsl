@@ -13,9 +13,10 @@
 SHARED_STRUCT(Shore)
 {
     Number mask;     // part that is water, linear between the mask's texels
+    Number code;     // of its depth by the mask; 0: it is a lake, whose level nobody knows
     Number texels;   // of the mask in the footprint's width
-    Number sea;      // 1: the water lies at sea level, 0: it is a lake, whose level nobody knows
-    Length altitude; // of the ground above sea level; that of open sea is 0
+    Length altitude; // of the ground above sea level; that of open sea is 0, or its bed's
+    Number bed;      // 1: heights here have the sea's bed, and so its shore
     Length around;   // the same, mean of the texels around; 0 where heights are finer than the mask
     Number slope;    // of the ground
     Number made;     // of shore_made
@@ -63,40 +64,48 @@ SHARED_FN Length shore_bed(Length way)
 // Ground falls on below water as it does above, where heights end: over so much.
 #define SHORE_FALL_M 30.0
 
+// Level water over a bed reaches so high: what has no bed but lies level is water too.
+#define SHORE_BED_M 0.05
+
 SHARED_STRUCT(ShoreWater)
 {
     Number part; // of the footprint that is open water
-    Number code; // of its depth by shared/sea.glsl, where the shore is near; else 0
+    Number code; // of its depth by shared/sea.glsl
 };
 
 SHARED_FN ShoreWater shore_water(Shore s)
 {
+    Number sea = s.code > 0.5 / 255.0 ? 1.0 : s.bed;
     Length level =
         SHORE_SEA_M + shared_max(s.around, 0.0) * (SHORE_AROUND + SHORE_AROUND_MADE * s.made);
+    level += s.bed * (SHORE_BED_M - level);
     Length rise = s.slope * s.texels * s.texel + 0.1;
     Number below = 0.5 + (level - s.altitude) / rise;
     Number off_level = (shared_abs(s.altitude) - SHORE_SEA_M) / rise;
-    Number is_level = s.sea * shared_clamp(0.5 - off_level, 0.0, 1.0);
+    Number is_level = sea * shared_clamp(0.5 - off_level, 0.0, 1.0);
     Number limit = 0.5 + (SHORE_LEVEL_MASK - 0.5) * is_level;
-    Number made = s.made * (SHORE_LAKE_MADE + (SHORE_SEA_MADE - SHORE_LAKE_MADE) * s.sea);
-    Number moved = s.mask - limit + made * (1.0 - is_level);
+    Number made = s.made * (SHORE_LAKE_MADE + (SHORE_SEA_MADE - SHORE_LAKE_MADE) * sea);
+    // Over a bed no mask is asked.
+    Number moved = s.mask - limit + made * (1.0 - is_level) + 2.0 * s.bed;
     // Where a footprint covers texels, the mask is its mean already.
     Number sharp = shared_clamp(0.5 + moved / shared_max(s.texels, 0.01), 0.0, 1.0);
     Number coarse = shared_clamp(1.0 + 2.0 * (s.texels - SHORE_MEAN_TEXELS), 0.0, 1.0);
     Number mask = sharp + (s.mask - sharp) * coarse;
     // Surely water and surely land stay.
-    mask = s.mask > 0.0 ? (s.mask < 1.0 ? mask : 1.0) : 0.0;
+    mask = s.mask + s.bed > 0.0 ? (s.mask < 1.0 ? mask : 1.0) : 0.0;
     Number height = shared_clamp(below, 0.0, 1.0);
-    height += (1.0 - height) * shared_max(coarse, 1.0 - s.sea);
+    height += (1.0 - height) * shared_max(coarse, 1.0 - sea);
     // From the shore on: by the mask as far as that changes, by heights as far as ground falls.
     Number off = shared_max(moved, 0.0);
     Number part = off / shared_max(off + 1.0 - s.mask, 1.0e-6);
     Number shelf = sea_depth_code(shore_bed(off * s.texel)) * (1.0 - part * part * part * part);
     Length fall = shore_bed((level - s.altitude) / shared_max(s.slope, 1.0e-6));
-    Number beach = s.sea * sea_depth_code(fall + SHORE_FALL_M * s.slope);
+    Number beach = sea * sea_depth_code(fall + SHORE_FALL_M * s.slope);
     ShoreWater w;
     w.part = shared_min(mask, height);
-    w.code = shared_max(shelf, beach) * (1.0 - coarse);
+    w.code = shared_max(s.code, shared_max(shelf, beach) * (1.0 - coarse));
+    Number bed = sea_depth_code(shared_max(-s.altitude, 0.0));
+    w.code += s.bed * (1.0 - coarse) * (bed - w.code);
     return w;
 }
 

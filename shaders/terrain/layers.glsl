@@ -63,6 +63,9 @@ uniform vec4 u_elevation_near[8];
 uniform vec4 u_elevation[4 * LAYER_VECTORS];
 uniform vec4 u_elevation_modes; // of shared/blend.glsl
 uniform vec4 u_elevation_gaps;  // 1: the texture's y is log2 of how coarse gaps are
+// Altitude of the level water over a layer's heights, m: 0 for one that has the sea's bed, else far
+// below all.
+uniform vec4 u_elevation_floors;
 uniform sampler2D u_elevation0;
 #endif
 #if ELEVATION_COUNT > 1
@@ -81,6 +84,7 @@ uniform sampler2D u_elevation3;
 uniform float u_datum;
 
 const float LAYER_PI = 3.14159265358979;
+const float LAYER_NO_FLOOR = -1.0e8; // m; below it: not a floor
 
 // Longitude and latitude of a direction, less the anchor's. `o` is (direction - anchor's direction)
 // in the anchor's frame, times any length if `size` is that length; small o keep all their digits.
@@ -350,7 +354,7 @@ float layer_blend(float mode, float below, float value, float weight)
 
 // Lays a layer over `altitude`, smooth where its texels are larger than the footprint.
 float layer_over_cubic(float altitude, sampler2D heights, LayerFrame frame, LayerNear near,
-                       float mode, Ground g, float log2_footprint)
+                       vec2 mode_floor, Ground g, float log2_footprint)
 {
     LayerPoint point = layer_point(frame, near, g);
     float lod = max(log2_footprint - frame.texel.z, 0.0);
@@ -359,19 +363,24 @@ float layer_over_cubic(float altitude, sampler2D heights, LayerFrame frame, Laye
     float low = layer_cubic(heights, layer_texels_near(heights, frame, point, level), near.unit);
     float high = layer_cubic(heights, layer_texels_near(heights, frame, point, next), near.unit);
     float value = near.unit.z + near.unit.w * mix(low, high, lod - floor(lod));
-    return layer_blend(mode, altitude, value, layer_locate(frame, g).z);
+    value = max(value, mode_floor.y - u_datum);
+    return layer_blend(mode_floor.x, altitude, value, layer_locate(frame, g).z);
 }
 
-float layer_over_linear(float altitude, sampler2D heights, LayerFrame frame, float mode, Ground g,
-                        float log2_footprint)
+// And lays over `altitude.y` whether the layer has the sea's bed.
+vec2 layer_over_linear(vec2 altitude, sampler2D heights, LayerFrame frame, vec2 mode_floor,
+                       float least, Ground g, float log2_footprint)
 {
     vec3 at = layer_locate(frame, g);
     float lod = log2_footprint - frame.texel.z;
     float value = frame.texel.w + frame.texel.x * layer_linear(heights, frame, at.xy, lod);
-    return layer_blend(mode, altitude, value - layer_origin(mode), at.z);
+    value = max(value, min(mode_floor.y, least)) - layer_origin(mode_floor.x);
+    float bed = mode_floor.y > LAYER_NO_FLOOR ? 1.0 : 0.0;
+    return vec2(layer_blend(mode_floor.x, altitude.x, value, at.z), mix(altitude.y, bed, at.z));
 }
 
 #define ELEVATION_FRAME(i) LAYER_FRAME(u_elevation, i)
+#define ELEVATION_MODE(i) vec2(u_elevation_modes[i], u_elevation_floors[i])
 #define ELEVATION_NEAR(i) LayerNear(u_elevation_near[2 * i], u_elevation_near[2 * i + 1])
 
 // Metres above u_datum, as all layers together say it, over what lies below them.
@@ -379,45 +388,51 @@ float layers_altitude(float below, Ground g, float log2_footprint)
 {
     float h = below;
 #if ELEVATION_COUNT > 0
-    h = layer_over_cubic(h, u_elevation0, ELEVATION_FRAME(0), ELEVATION_NEAR(0),
-                         u_elevation_modes.x, g, log2_footprint);
+    h = layer_over_cubic(h, u_elevation0, ELEVATION_FRAME(0), ELEVATION_NEAR(0), ELEVATION_MODE(0),
+                         g, log2_footprint);
 #endif
 #if ELEVATION_COUNT > 1
-    h = layer_over_cubic(h, u_elevation1, ELEVATION_FRAME(1), ELEVATION_NEAR(1),
-                         u_elevation_modes.y, g, log2_footprint);
+    h = layer_over_cubic(h, u_elevation1, ELEVATION_FRAME(1), ELEVATION_NEAR(1), ELEVATION_MODE(1),
+                         g, log2_footprint);
 #endif
 #if ELEVATION_COUNT > 2
-    h = layer_over_cubic(h, u_elevation2, ELEVATION_FRAME(2), ELEVATION_NEAR(2),
-                         u_elevation_modes.z, g, log2_footprint);
+    h = layer_over_cubic(h, u_elevation2, ELEVATION_FRAME(2), ELEVATION_NEAR(2), ELEVATION_MODE(2),
+                         g, log2_footprint);
 #endif
 #if ELEVATION_COUNT > 3
-    h = layer_over_cubic(h, u_elevation3, ELEVATION_FRAME(3), ELEVATION_NEAR(3),
-                         u_elevation_modes.w, g, log2_footprint);
+    h = layer_over_cubic(h, u_elevation3, ELEVATION_FRAME(3), ELEVATION_NEAR(3), ELEVATION_MODE(3),
+                         g, log2_footprint);
 #endif
     return h;
 }
 
-// The same, cheaper: linear between texels.
-float layers_altitude_linear(float below, Ground g, float log2_footprint)
+// The same, cheaper: linear between texels; y: 1 where that is a layer with the sea's bed. `least`:
+// nothing is raised above it, 0 for level water.
+vec2 layers_linear(float below, float least, Ground g, float log2_footprint)
 {
-    float h = below;
+    vec2 h = vec2(below, 0.0);
 #if ELEVATION_COUNT > 0
-    h = layer_over_linear(h, u_elevation0, ELEVATION_FRAME(0), u_elevation_modes.x, g,
+    h = layer_over_linear(h, u_elevation0, ELEVATION_FRAME(0), ELEVATION_MODE(0), least, g,
                           log2_footprint);
 #endif
 #if ELEVATION_COUNT > 1
-    h = layer_over_linear(h, u_elevation1, ELEVATION_FRAME(1), u_elevation_modes.y, g,
+    h = layer_over_linear(h, u_elevation1, ELEVATION_FRAME(1), ELEVATION_MODE(1), least, g,
                           log2_footprint);
 #endif
 #if ELEVATION_COUNT > 2
-    h = layer_over_linear(h, u_elevation2, ELEVATION_FRAME(2), u_elevation_modes.z, g,
+    h = layer_over_linear(h, u_elevation2, ELEVATION_FRAME(2), ELEVATION_MODE(2), least, g,
                           log2_footprint);
 #endif
 #if ELEVATION_COUNT > 3
-    h = layer_over_linear(h, u_elevation3, ELEVATION_FRAME(3), u_elevation_modes.w, g,
+    h = layer_over_linear(h, u_elevation3, ELEVATION_FRAME(3), ELEVATION_MODE(3), least, g,
                           log2_footprint);
 #endif
     return h;
+}
+
+float layers_altitude_linear(float below, Ground g, float log2_footprint)
+{
+    return layers_linear(below, 0.0, g, log2_footprint).x;
 }
 
 // Here, since a file counts once, also where it is left out.

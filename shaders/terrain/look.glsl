@@ -35,16 +35,17 @@ vec2 look_shore(vec3 water, Tangent t, LookGround ground)
     vec2 shore = water.xy;
 #if defined(HAS_DEPTH) && ELEVATION_COUNT > 0 && !defined(HAS_MEAN_SHORES)
     // No branch, but a loop that dry ground does not enter.
-    int count = water.x > 0.0 ? 1 : 0;
+    bool has_bed = any(greaterThan(u_elevation_floors, vec4(LAYER_NO_FLOOR)));
+    int count = water.x > 0.0 || has_bed ? 1 : 0;
     for (int i = 0; i < count; i++) {
-        float altitude = layers_altitude_linear(0.0, t.ground, t.log2_footprint);
+        vec2 bed = layers_linear(0.0, LAYER_NO_FLOOR, t.ground, t.log2_footprint);
         float around = layers_altitude_linear(0.0, t.ground, max(t.log2_footprint, water.z + 1.0));
         around *= 1.0 - shore_fine(water.z - ground.log2_texel);
         float texel = exp2(water.z);
-        ShoreWater w = shore_water(Shore(water.x, exp2(t.log2_footprint - water.z),
-                                         water.y > 0.5 / 255.0 ? 1.0 : 0.0, altitude, around,
-                                         ground.steep, shore_made(ground.shore / texel), texel));
-        shore = vec2(w.part, max(water.y, w.code));
+        ShoreWater w =
+            shore_water(Shore(water.x, water.y, exp2(t.log2_footprint - water.z), bed.x, bed.y,
+                              around, ground.steep, shore_made(ground.shore / texel), texel));
+        shore = vec2(w.part, w.code);
     }
 #endif
     return shore;

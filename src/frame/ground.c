@@ -52,6 +52,7 @@ void ground_describe(const trl_context *ctx, const struct trl_scene *scene,
                                                 .offset_m = layer->offset_m,
                                                 .feather_rad = layer->feather_deg * M_PI / 180,
                                                 .mode = choose_mode(layer->blend),
+                                                .has_bed = layer->has_bed,
                                                 .is_cover = layer->kind == LAYER_SNOW};
         if (layers[i].is_cover) {
             daylight_albedo(&scene->medium, &layer->albedo, layers[i].cover_rgb);

@@ -7,8 +7,9 @@ static const char *const kind_keys[] = {"elevation", "colour", "water", "lights"
                                         "normal",    "snow",   NULL};
 
 // What a layer of a kind may say beside its file.
-static const char *const extra_keys[][7] = {
-    [LAYER_ELEVATION] = {"name", "optional", "feather_deg", "blend", "scale", "offset_m", NULL},
+static const char *const extra_keys[][8] = {
+    [LAYER_ELEVATION] = {"name", "optional", "feather_deg", "blend", "scale", "offset_m", "sea_bed",
+                         NULL},
     [LAYER_COLOUR] = {"name", "optional", "feather_deg", "blend", NULL},
     [LAYER_WATER] = {"name", "optional", "feather_deg", "blend", NULL},
     [LAYER_LIGHTS] = {"name", "optional", "feather_deg", "blend", "radiance_cd_m2", NULL},
@@ -16,9 +17,9 @@ static const char *const extra_keys[][7] = {
     [LAYER_SNOW] = {"name", "optional", "feather_deg", "albedo", NULL},
 };
 
-static const char *const any_extra_keys[] = {"name",           "optional", "feather_deg",
-                                             "blend",          "scale",    "offset_m",
-                                             "radiance_cd_m2", "albedo",   NULL};
+static const char *const any_extra_keys[] = {"name",    "optional", "feather_deg",    "blend",
+                                             "scale",   "offset_m", "radiance_cd_m2", "albedo",
+                                             "sea_bed", NULL};
 
 // In the order of enum layer_blend.
 static const char *const blend_words[] = {"over", "add", "multiply", "max", "min", NULL};
@@ -39,7 +40,7 @@ static trl_result read_kind(const struct scene_node *node, enum layer_kind *kind
 // Keys of another kind of layer are unknown keys of this one.
 static trl_result check_extras(const struct scene_node *node, enum layer_kind kind)
 {
-    const char *known[9] = {kind_keys[kind]};
+    const char *known[10] = {kind_keys[kind]};
     for (size_t i = 0; extra_keys[kind][i]; i++) {
         known[i + 1] = extra_keys[kind][i];
     }
@@ -125,7 +126,11 @@ static trl_result read_layer(const struct scene_node *node, struct layer *out)
         result = read_snow(node, out);
     }
     const struct scene_node optional = scene_node_member(node, "optional");
-    return result == TRL_OK ? scene_node_bool_or(&optional, &out->is_optional) : result;
+    const struct scene_node bed = scene_node_member(node, "sea_bed");
+    if (result == TRL_OK) {
+        result = scene_node_bool_or(&optional, &out->is_optional);
+    }
+    return result == TRL_OK ? scene_node_bool_or(&bed, &out->has_bed) : result;
 }
 
 // From 39 degrees on, the angle of repose of what is loose, over 17 on both sides together, when

@@ -40,6 +40,7 @@ struct layer {
     bool is_optional;   // a missing file is no error
     double scale;       // elevation: metres per unit of the raster
     double offset_m;    // elevation
+    bool has_bed;       // elevation: what is below the sphere is the sea's bed
     double feather_deg; // width of the blend at the layer's border and gaps
     enum layer_blend blend;
     double radiance_cd_m2;  // lights: luminance of white

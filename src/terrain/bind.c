@@ -14,7 +14,8 @@ static const char *const KIND_DEFINES[SURFACE_KIND_COUNT] = {
 static const char *const KIND_UNIFORMS[SURFACE_KIND_COUNT] = {"u_elevation", "u_colour", "u_water",
                                                               "u_lights", "u_normal"};
 static const float COVER_MODE = 5; // as in terrain/surface.frag
-enum { FRAME_ROWS = 5 };           // vec4 of a layer; the last one only where there are tiles
+static const float NO_FLOOR_M = -1e9f;
+enum { FRAME_ROWS = 5 }; // vec4 of a layer; the last one only where there are tiles
 
 static void add_define(struct surface_defines *out, const char *name)
 {
@@ -139,13 +140,17 @@ static void bind_kind(const struct binding *binding, enum surface_kind kind,
     const struct surface_selection *selection = binding->selection;
     const size_t row_count = surface->stream ? FRAME_ROWS : FRAME_ROWS - 1;
     float rows[SURFACE_SEEN_LAYERS * FRAME_ROWS][4] = {0};
-    float modes[4] = {0}, gaps[4] = {0};
+    float modes[4] = {0}, gaps[4] = {0}, floors[4];
     char name[32];
+    for (int i = 0; i < 4; i++) {
+        floors[i] = NO_FLOOR_M;
+    }
     for (size_t i = 0; i < selection->counts[kind]; i++) {
         const struct terrain_layer *layer = &surface->layers[kind][selection->indices[kind][i]];
         describe_layer(layer, binding->anchor, surface->radius_m, &rows[i * row_count]);
         modes[i] = layer->cover.is_there ? COVER_MODE : (float)layer->mode;
         gaps[i] = layer->heights.coarser ? 1.0f : 0.0f;
+        floors[i] = layer->heights.has_bed ? 0 : NO_FLOOR_M;
         snprintf(name, sizeof name, "%s%zu", KIND_UNIFORMS[kind], i);
         gpu_program_set_texture(program, name,
                                 layer->tiles ? stream_texture(layer->stream, layer->tiles)
@@ -158,6 +163,8 @@ static void bind_kind(const struct binding *binding, enum surface_kind kind,
         gpu_program_set_vec4(program, name, modes);
         snprintf(name, sizeof name, "%s_gaps", KIND_UNIFORMS[kind]);
         gpu_program_set_vec4(program, name, gaps);
+        snprintf(name, sizeof name, "%s_floors", KIND_UNIFORMS[kind]);
+        gpu_program_set_vec4(program, name, floors);
     }
 }
 

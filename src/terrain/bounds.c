@@ -211,8 +211,11 @@ trl_result surface_find_bounds(struct surface *s)
         }
         bound_layer(layer, cells);
         for (int i = 0; i < CELLS; i++) {
-            const struct surface_bounds wide =
+            struct surface_bounds wide =
                 widen(cells, i % COLUMNS, i / COLUMNS, layer->tiles != NULL);
+            if (layer->heights.has_bed && wide.min <= wide.max) {
+                wide = (struct surface_bounds){fmaxf(wide.min, 0), fmaxf(wide.max, 0)};
+            }
             lay_over(layer->mode, &wide, &s->bounds[i]);
         }
     }

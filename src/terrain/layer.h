@@ -20,6 +20,9 @@ struct layer_heights {
     // steps of 1 / LAYER_COARSER_STEPS. NULL: it has none.
     uint8_t *coarser;
     double scale, offset_m;
+    // What is below the sphere is the sea's bed, and level water lies over it; else heights below
+    // water have been raised to it.
+    bool has_bed;
 };
 
 // Something that covers the ground with one colour, where a mask in place of a picture says so.

@@ -84,6 +84,7 @@ trl_result load_set_scale(const struct loader *loader, const struct surface_laye
     }
     // Exaggerating every layer exaggerates their sum; factors are no heights.
     const double exaggeration = blend_is_factor(layer->mode) ? 1 : loader->desc->exaggeration;
+    layer->heights.has_bed = desc->has_bed && !blend_is_change(layer->mode);
     layer->heights.scale = scale * exaggeration;
     layer->heights.offset_m = offset_m * exaggeration;
     return TRL_OK;

@@ -237,8 +237,9 @@ static trl_result raise_layer(const struct loader *loader, const struct mask_blo
 // level stays.
 trl_result load_raise_sea(const struct loader *loader, struct terrain_layer *layer)
 {
-    // Layers that add or multiply hold differences and factors, not heights.
-    if (loader->surface->counts[SURFACE_WATER] == 0 || blend_is_change(layer->mode)) {
+    // Layers that add or multiply hold differences and factors, not heights; a bed is to be seen.
+    if (loader->surface->counts[SURFACE_WATER] == 0 || blend_is_change(layer->mode) ||
+        layer->heights.has_bed) {
         return TRL_OK;
     }
     struct mask_blocks blocks;

@@ -91,20 +91,27 @@ static struct mask_look find_mask(const struct surface *surface, struct place at
     return look;
 }
 
-// Of the layers without octaves, linear between texels, as shaders look at it; and their texel.
-static double find_level(const struct surface *surface, struct place at, double *texel_rad)
+// Of the layers without octaves, linear between texels, as shaders look at it: with the sea's bed
+// where they have one.
+struct level {
+    double altitude_m, texel_rad;
+    double bed; // 1: the layer on top has it
+};
+
+static struct level find_level(const struct surface *surface, struct place at, double texel_rad)
 {
-    double altitude = 0;
+    struct level level = {.texel_rad = texel_rad};
     for (size_t i = 0; i < surface->counts[SURFACE_ELEVATION]; i++) {
         const struct terrain_layer *layer = &surface->layers[SURFACE_ELEVATION][i];
         const struct layer_place p = layer_locate(&layer->frame, at.latitude, at.longitude);
         if (p.weight > 0) {
-            altitude =
-                blend_layers(layer->mode, altitude, layer_sample_linear(layer, p.x, p.y), p.weight);
-            *texel_rad = layer_finest_frame(layer)->texel_height;
+            const double own_m = layer_sample_linear(layer, p.x, p.y);
+            level.altitude_m = blend_layers(layer->mode, level.altitude_m, own_m, p.weight);
+            level.bed += p.weight * ((layer->heights.has_bed ? 1 : 0) - level.bed);
+            level.texel_rad = layer_finest_frame(layer)->texel_height;
         }
     }
-    return altitude;
+    return level;
 }
 
 // Of that ground, over half a texel.
@@ -114,10 +121,10 @@ static double find_slope(const struct surface *surface, struct place at, double 
     double rises[2] = {0};
     for (int k = 0; k < 2; k++) {
         const double north = k ? step : 0, east = k ? 0 : step / fmax(cos(at.latitude), 1e-3);
-        rises[k] = find_level(surface, (struct place){at.latitude + north, at.longitude + east},
-                              &texel_rad) -
-                   find_level(surface, (struct place){at.latitude - north, at.longitude - east},
-                              &texel_rad);
+        const struct place ahead = {at.latitude + north, at.longitude + east};
+        const struct place behind = {at.latitude - north, at.longitude - east};
+        rises[k] = find_level(surface, ahead, texel_rad).altitude_m -
+                   find_level(surface, behind, texel_rad).altitude_m;
     }
     return hypot(rises[0], rises[1]) / (2 * step * surface->radius_m);
 }
@@ -131,7 +138,7 @@ static double find_around(const struct surface *surface, struct place at, double
     for (int k = 0; k < 4 && share > 0; k++) {
         const struct place beside = {at.latitude + (k / 2 - 0.5) * mask_rad,
                                      at.longitude + (k % 2 - 0.5) * mask_rad / cos(at.latitude)};
-        sum += find_level(surface, beside, &texel_rad);
+        sum += find_level(surface, beside, texel_rad).altitude_m;
     }
     return share * sum / 4;
 }
@@ -142,28 +149,28 @@ double surface_water(const struct surface *surface, struct vec3 direction, doubl
     const struct mask_look mask = find_mask(surface, at);
     const double everywhere_m = surface->depth.everywhere_m;
     *depth_code = everywhere_m >= 0 ? sea_depth_code(everywhere_m) : mask.code;
-    if (!(mask.water > 0)) {
-        return 0;
-    }
     if (surface->counts[SURFACE_ELEVATION] == 0) {
         return mask.water;
     }
+    const struct level level = find_level(surface, at, mask.texel_rad);
+    if (!(mask.water > 0) && !(level.bed > 0)) {
+        return 0;
+    }
     struct noise_place place;
-    double texel_rad = mask.texel_rad;
-    const double altitude_m = find_level(surface, at, &texel_rad);
     const double texel_m = mask.texel_rad * surface->radius_m;
     const double shore_m = noise_is_there(&surface->noise)
                                ? surface_relief(surface, vec3_normalize(direction), &place).shore
                                : 0;
     const ShoreWater water =
         shore_water((Shore){.mask = mask.water,
-                            .sea = mask.code > 0.5 / 255,
-                            .altitude = altitude_m,
-                            .around = find_around(surface, at, mask.texel_rad, texel_rad),
-                            .slope = find_slope(surface, at, texel_rad),
+                            .code = mask.code,
+                            .altitude = level.altitude_m,
+                            .bed = level.bed,
+                            .around = find_around(surface, at, mask.texel_rad, level.texel_rad),
+                            .slope = find_slope(surface, at, level.texel_rad),
                             .made = shore_made(shore_m / texel_m),
                             .texel = texel_m});
-    *depth_code = everywhere_m >= 0 ? *depth_code : fmax(mask.code, water.code);
+    *depth_code = everywhere_m >= 0 ? *depth_code : water.code;
     return water.part;
 }
 

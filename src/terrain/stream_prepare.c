@@ -99,7 +99,7 @@ static void raise_sea(const struct tile_heights *t)
     const struct terrain_layer *layer = t->l->layer;
     const struct surface *s = t->l->surface;
     const double zero = -layer->heights.offset_m / layer->heights.scale;
-    if (s->counts[SURFACE_WATER] == 0 || blend_is_change(layer->mode)) {
+    if (s->counts[SURFACE_WATER] == 0 || blend_is_change(layer->mode) || layer->heights.has_bed) {
         return;
     }
     for (size_t i = 0; i < PYRAMID_TEXELS; i++) {

@@ -23,7 +23,8 @@ static double lay_over(const struct surface *s, sample_fn sample, double below, 
         }
         const struct layer_place place = layer_locate(&layer->frame, latitude, longitude);
         if (place.weight > 0) {
-            const double height = sample(layer, place.x, place.y);
+            const double height =
+                fmax(sample(layer, place.x, place.y), layer->heights.has_bed ? 0 : -INFINITY);
             altitude = blend_layers(layer->mode, altitude, height, place.weight);
         }
     }

@@ -36,6 +36,7 @@ struct surface_layer_desc {
     double offset_m;    // elevation
     double feather_rad; // width of the blend at the layer's borders and gaps
     double mode;        // of shared/blend.glsl; normals: over or add only
+    bool has_bed;       // elevation: below the sphere is the sea's bed, whatever masks say
     // Colour: a mask instead of a picture, of what covers the ground with one linear sRGB.
     bool is_cover;
     float cover_rgb[3];

@@ -347,7 +347,7 @@ static void layers_are_read(void **state)
     trl_scene *s = parse_with(
         *state, "{ \"elevation\": \"a.tif\" }",
         "{\"elevation\": \"a.tif\", \"scale\": 0.5, \"offset_m\": -3, \"feather_deg\": 2, "
-        "\"optional\": true, \"name\": \"Alps\"}, {\"colour\": \"b/c.png\"}, "
+        "\"optional\": true, \"sea_bed\": true, \"name\": \"Alps\"}, {\"colour\": \"b/c.png\"}, "
         "{\"water\": \"/w.tif\"}, {\"lights\": \"l.tif\", \"radiance_cd_m2\": 7}, "
         "{\"snow\": \"s.tif\"}, {\"snow\": \"t.tif\", \"albedo\": [[400, 0.5], [500, 0.7]]}");
     assert_int_equal(trl_scene_layer_count(s), 6);
@@ -356,6 +356,7 @@ static void layers_are_read(void **state)
     assert_near(s->layers[0].offset_m, -3);
     assert_near(s->layers[0].feather_deg, 2);
     assert_true(s->layers[0].is_optional && !s->layers[1].is_optional);
+    assert_true(s->layers[0].has_bed && !s->layers[1].has_bed);
     assert_int_equal(s->layers[1].kind, LAYER_COLOUR);
     assert_string_equal(trl_scene_layer_name(s, 1), "b/c.png");
     assert_string_equal(trl_scene_layer_path(s, 1), "/nonexistent/terrella-data/b/c.png");

@@ -164,6 +164,71 @@ static void water_shelves_toward_its_shore(void **state)
     coasts_finish(&coasts);
 }
 
+// A coast that runs askew through the texels, of a map whose mask knows nothing: land to the
+// north-east, a bed to the south-west. 1 where the line is, in degrees from it.
+static double from_askew(double latitude, double longitude)
+{
+    return 0.6 * longitude + 0.8 * (latitude - 3.3);
+}
+
+static double find_bed(double latitude, double longitude)
+{
+    return 2000 * from_askew(latitude, longitude);
+}
+
+static double find_no_water(double latitude, double longitude)
+{
+    (void)latitude;
+    (void)longitude;
+    return 0;
+}
+
+static double find_mean_water(const struct coasts *coasts, double from_deg)
+{
+    double sum = 0, code;
+    for (int k = 0; k < 40; k++) {
+        // Along the line, over ten texels.
+        const double along = 0.125 * k, latitude = 3.3 + 0.8 * from_deg - 0.6 * along;
+        const struct vec3 up =
+            vec3_from_lat_lon(latitude * DEGREE, (0.6 * from_deg + 0.8 * along) * DEGREE);
+        sum += surface_water(&coasts->on_cpu, up, &code);
+        assert_close(surface_altitude(&coasts->on_cpu, up), fmax(2000 * from_deg, 0), 1);
+    }
+    return sum / 40;
+}
+
+static void a_bed_has_its_own_shore(void **state)
+{
+    const struct fixture *f = *state;
+    char paths[LAYERS][128];
+    struct surface_layer_desc layers[LAYERS];
+    struct surface_desc desc = describe(f, paths, layers);
+    const struct raster_place fine = {-180, 90, 0.5, 720, 360}, coarse = {-180, 90, 2, 180, 90};
+    fixture_write_heights(f, "bed", &fine, find_bed, paths[ELEVATION]);
+    fixture_write_bytes(f, "dry", &coarse, find_no_water, paths[WATER]);
+    layers[ELEVATION].has_bed = true;
+    struct coasts coasts = {.f = f};
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &coasts.on_cpu), TRL_OK);
+    assert_int_equal(surface_init(f->gpu, &desc, &coasts.on_gpu), TRL_OK);
+    // A hundredth of a texel on either side of the line, everywhere along it.
+    assert_close(find_mean_water(&coasts, -0.005), 1, 0);
+    assert_close(find_mean_water(&coasts, 0.005), 0, 0);
+    const double places[][3] = {
+        {3.3 - 0.04, -0.03, 100}, {3.3 - 0.008, -0.006, 20}, {3.38, 0.06, 0}};
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        const struct both c = coasts_at(&coasts, places[i], 600);
+        const bool is_sea = places[i][2] > 0;
+        assert_close(c.water, is_sea, 0);
+        assert_close(c.drawn.albedo_water[3] / 255.0, is_sea, 0.01);
+        if (is_sea) {
+            assert_close(sea_code_depth(c.depth_code), places[i][2], 1);
+            assert_close(sea_code_depth(c.drawn.lights[3] / 255.0), places[i][2], 3);
+        }
+    }
+    assert_close(surface_min_altitude(&coasts.on_cpu), 0, 0);
+    coasts_finish(&coasts);
+}
+
 // Detail goes on below the data, up to a lake's shore.
 static void made_up_relief_ends_at_a_lake(void **state)
 {
@@ -260,6 +325,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_ends_where_mask_and_heights_say),
         cmocka_unit_test(water_shelves_toward_its_shore),
+        cmocka_unit_test(a_bed_has_its_own_shore),
         cmocka_unit_test(made_up_relief_ends_at_a_lake),
         cmocka_unit_test(made_up_shores_hold_together),
         cmocka_unit_test(land_is_not_painted_as_the_sea_beside_it),

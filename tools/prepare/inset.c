@@ -28,15 +28,23 @@ static trl_result write_inset(const struct places *places, const struct inset *i
         memcpy(wide + (size_t)(y + margin) * width + margin, values + (size_t)y * raster->width,
                raster->width * sizeof *wide);
     }
+    const struct inset_grid grid = {width,
+                                    height,
+                                    raster->west_deg - margin * raster->pixel_width_deg,
+                                    raster->north_deg + margin * raster->pixel_height_deg,
+                                    raster->pixel_height_deg,
+                                    wide};
+    if (result == TRL_OK && inset->has_sea) {
+        result = coast_make_bed(places, &grid);
+    }
     if (result == TRL_OK) {
         const struct geotiff g = {.name = inset->name,
                                   .width = width,
                                   .height = height,
                                   .bands = 1,
                                   .kind = PIXEL_FLOAT,
-                                  .west_deg = raster->west_deg - margin * raster->pixel_width_deg,
-                                  .north_deg =
-                                      raster->north_deg + margin * raster->pixel_height_deg,
+                                  .west_deg = grid.west_deg,
+                                  .north_deg = grid.north_deg,
                                   .pixel_width_deg = raster->pixel_width_deg,
                                   .pixel_height_deg = raster->pixel_height_deg,
                                   .pixels = wide,
@@ -64,9 +72,10 @@ trl_result inset_prepare(const struct places *places, const struct inset *inset)
 // 9 km around the tiles of 3 seconds, 4 km around Mount St. Helens' 30 m.
 trl_result earth_prepare_insets(const struct places *places)
 {
-    static const struct inset INSETS[] = {{"earth/insets/N42E001.hgt.zip", "andorra.tif", 100},
-                                          {"earth/insets/N43E007.hgt.zip", "monaco.tif", 100},
-                                          {"earth/insets/SainteHelens.dem", "st-helens.tif", 130}};
+    static const struct inset INSETS[] = {
+        {"earth/insets/N42E001.hgt.zip", "andorra.tif", 100, false},
+        {"earth/insets/N43E007.hgt.zip", "monaco.tif", 100, true},
+        {"earth/insets/SainteHelens.dem", "st-helens.tif", 130, false}};
     trl_result result = TRL_OK;
     for (size_t i = 0; i < sizeof INSETS / sizeof INSETS[0] && result == TRL_OK; i++) {
         if (source_exists(places, INSETS[i].file)) {
@@ -183,7 +192,7 @@ static trl_result prepare_gale_colour(const struct places *places)
 
 trl_result mars_prepare_insets(const struct places *places)
 {
-    const struct inset gale = {"mars/gale_inset/gale_hirise_dem_1m.tif", "gale.tif", 600};
+    const struct inset gale = {"mars/gale_inset/gale_hirise_dem_1m.tif", "gale.tif", 600, false};
     char relative[96];
     snprintf(relative, sizeof relative, GALE_TILE, GALE_ZOOM, GALE_COLUMN, GALE_ROW);
     trl_result result = TRL_OK;

@@ -125,7 +125,16 @@ TRL_MUST_USE trl_result polar_prepare(const struct places *places, const char *b
 struct inset {
     const char *file, *name;
     uint32_t margin; // pixels
+    bool has_sea;    // at 0 m, in the file: it gets a bed
 };
+// Heights in it: NaN is not known.
+struct inset_grid {
+    uint32_t width, height;
+    double west_deg, north_deg, cell_deg;
+    float *metres;
+};
+// Puts the sea's bed below the sea, and the globe's about it; after the globe's heights.
+TRL_MUST_USE trl_result coast_make_bed(const struct places *places, const struct inset_grid *grid);
 TRL_MUST_USE trl_result inset_prepare(const struct places *places, const struct inset *inset);
 
 // Insets of Earth that are there.
