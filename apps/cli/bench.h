@@ -22,13 +22,6 @@ struct bench_job {
 // The job's scene, or the one of that name that ships with the program. Errors are reported.
 trl_result bench_load_scene(const struct bench_job *job, const char *file, trl_scene **out);
 
-// The bare sphere with more keys, as `"key": value`.
-trl_result bench_bare_scene(const struct bench_job *job, const char *name, const char *keys,
-                            trl_scene **out);
-
-// The bare sphere with cumulus of that cover.
-trl_result bench_cloudy_scene(const struct bench_job *job, double cover, trl_scene **out);
-
 static inline int bench_runs(const struct bench_job *job, int fallback)
 {
     return job->runs > 0 ? job->runs : fallback;

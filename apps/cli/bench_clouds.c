@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // What clouds take of a frame: by cover, view and size, over a bare sphere; and in a flight, where
 // they come together over frames.
+#include "bare_scene.h"
 #include "bench.h"
 
 #include <stdio.h>
@@ -15,13 +16,6 @@ enum { DEFAULT_RUNS = 3, TIMINGS_MAX = 32, COVERS = 3, SIZES = 2, VIEWS = 2 };
 static const double covers[COVERS] = {0.2, 0.5, 0.9};
 static const struct number_size sizes[SIZES] = {{640, 360}, {1280, 720}};
 static const char *const views[VIEWS] = {"ground", "full-disc"};
-
-trl_result bench_cloudy_scene(const struct bench_job *job, double cover, trl_scene **out)
-{
-    char keys[64];
-    snprintf(keys, sizeof keys, "\"clouds\": {\"layers\": [{\"cover\": %g}]}", cover);
-    return bench_bare_scene(job, "clouds", keys, out);
-}
 
 static trl_result add_passes(const struct bench_job *job, const trl_renderer *renderer,
                              const char *name)
@@ -74,7 +68,7 @@ static trl_result measure_cover(const struct bench_job *job, double cover)
 {
     trl_scene *scene = NULL;
     struct cloud_case c = {0};
-    trl_result result = bench_cloudy_scene(job, cover, &scene);
+    trl_result result = bare_scene_make_cloudy(job->app, cover, &scene);
     if (result == TRL_OK) {
         trl_renderer_desc desc = bench_renderer_desc(job, scene);
         desc.measures_time = true;

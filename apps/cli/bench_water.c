@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // The table of light that leaves the water: seconds, size, error; and the colours that pictures
 // make of it, against paths of light.
+#include "bare_scene.h"
 #include "bench.h"
 
 #include <terrella/water.h>
@@ -117,7 +118,7 @@ trl_result bench_run_water_error(const struct bench_job *job)
                  "[600, 0.4], [700, 0.45]]}}",
                  kinds[k].water);
         trl_scene *scene = NULL;
-        result = bench_bare_scene(job, kinds[k].name, keys, &scene);
+        result = bare_scene_make(job->app, kinds[k].name, keys, &scene);
         trl_water_query queries[PLACES];
         for (int n = 0; n < PLACES; n++) {
             queries[n] = (trl_water_query){.depth_m = DEPTHS_M[n / SUNS],

@@ -82,7 +82,8 @@ static enum options_outcome read_arguments(int argc, char **argv, struct validat
 
 static enum exit_status load_scenes(struct validate *v, const struct option_arguments *words)
 {
-    if (words->count == 0) {
+    v->is_shipped = words->count == 0;
+    if (v->is_shipped) {
         return validate_load_shipped(v);
     }
     enum exit_status status = EXIT_OK;
@@ -169,6 +170,9 @@ static enum exit_status compare(struct validate *v, const struct validate_argume
     }
     if (status == EXIT_OK && v->wants_pictures) {
         status = validate_draw(v);
+    }
+    if (status == EXIT_OK && v->wants_pictures && v->is_shipped) {
+        status = validate_check_clouds(v);
     }
     if (status == EXIT_OK) {
         status = validate_trace(v);

@@ -7,8 +7,11 @@
 
 #include "app.h"
 #include "bench_machine.h"
+#include "cloud_check.h"
 #include "judge.h"
 #include "shot.h"
+
+#include <stdio.h>
 
 enum {
     VALIDATE_MODELS = 3, // that are judged: all before TRL_SKY_REFERENCE
@@ -68,6 +71,17 @@ struct validate_scene {
     char refusal[VALIDATE_MODELS][200]; // why a model has no answer
 };
 
+// Clouds are compared where the scenes are those that ship, and there are pictures. Owned texts.
+struct validate_cloud_look {
+    char *drawn, *traced, *map;
+    struct cloud_figures figures;
+};
+
+struct validate_clouds {
+    uint64_t paths; // of a pixel; 0: none were compared
+    struct validate_cloud_look looks[CLOUD_LOOKS];
+};
+
 struct validate {
     struct app *app;
     struct bench_machine machine;
@@ -77,6 +91,8 @@ struct validate {
     double budget_s; // of the whole run
     struct validate_scene scenes[VALIDATE_MAX_SCENES];
     int scene_count;
+    bool is_shipped; // the scenes are
+    struct validate_clouds clouds;
     double spent_s;
     uint64_t rounds; // of tracing so far: each has a seed of its own
 };
@@ -95,6 +111,8 @@ enum exit_status validate_ask_models(struct validate *v);
 enum exit_status validate_probe(struct validate *v);
 // Pictures by the models and the path tracer, and how they differ.
 enum exit_status validate_draw(struct validate *v);
+// A field of cumulus, drawn and traced, unless there is too little time.
+enum exit_status validate_check_clouds(struct validate *v);
 // Numbers by the path tracer, within the time that is left.
 enum exit_status validate_trace(struct validate *v);
 
@@ -130,5 +148,7 @@ struct validate_total validate_sum(const struct validate *v, const struct valida
 void validate_print_table(const struct validate *v);
 enum exit_status validate_print_json(const struct validate *v);
 enum exit_status validate_write_html(const struct validate *v, const char *path);
+// The page's part about clouds.
+void validate_write_clouds(FILE *page, const struct validate *v);
 
 #endif // CLI_VALIDATE_H

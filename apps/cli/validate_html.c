@@ -439,6 +439,7 @@ enum exit_status validate_write_html(const struct validate *v, const char *path)
     for (int s = 0; s < v->scene_count; s++) {
         write_scene(output.stream, v, s);
     }
+    validate_write_clouds(output.stream, v);
     write_foot(output.stream, v);
     return output_text_commit(&output);
 }

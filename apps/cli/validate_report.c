@@ -128,6 +128,27 @@ void validate_print_table(const struct validate *v)
         t.views, t.good, t.mean_only, t.noisy, t.bad, t.known, 100 * JUDGE_KNOWN_NOISE,
         100 * t.signed_mean, 100 * sqrt(t.variance) / fmax(t.known, 1), 100 * t.largest,
         v->spent_s);
+    for (int look = 0; v->clouds.paths > 0 && look < CLOUD_LOOKS; look++) {
+        const struct cloud_figures *f = &v->clouds.looks[look].figures;
+        printf("clouds, %s: luminance %.3f of traced; pixels off by %.0f to %.0f %%\n",
+               cloud_look_name(look), f->ratio, 100 * f->least_size, 100 * f->rms);
+    }
+}
+
+static json_t *pack_clouds(const struct validate_clouds *clouds)
+{
+    json_t *looks = json_array();
+    for (int look = 0; clouds->paths > 0 && look < CLOUD_LOOKS; look++) {
+        const struct cloud_figures *f = &clouds->looks[look].figures;
+        json_array_append_new(looks,
+                              json_pack("{s:s, s:f, s:f, s:f, s:f, s:[f, f, f], s:[f, f]}", "look",
+                                        cloud_look_name(look), "mean_luminance_cd_m2",
+                                        f->traced_cd_m2, "drawn_over_traced", f->ratio,
+                                        "pixel_error_at_least", f->least_size, "pixel_error_rms",
+                                        f->rms, "thirds", f->thirds[0], f->thirds[1], f->thirds[2],
+                                        "contrast_drawn_traced", f->contrast[0], f->contrast[1]));
+    }
+    return looks;
 }
 
 static json_t *pack_answer(const struct validate_case *c, int model)
@@ -205,16 +226,16 @@ enum exit_status validate_print_json(const struct validate *v)
         json_array_append_new(scenes, pack_scene(&v->scenes[s]));
     }
     const struct validate_total t = validate_sum(v, NULL, TRL_SKY_SPECTRAL);
-    json_t *object =
-        json_pack("{s:b, s:{s:f, s:f}, s:{s:i, s:i, s:i, s:i, s:i, s:i, s:f, s:f, s:f}, s:f, "
-                  "s:{s:s, s:i, s:f, s:s}, "
-                  "s:o}",
-                  "passed", t.bad == 0, "bounds", "mean", JUDGE_MEAN_BOUND, "largest",
-                  JUDGE_LARGEST_BOUND, "spectral", "views", t.views, "good", t.good, "mean_only",
-                  t.mean_only, "noisy", t.noisy, "bad", t.bad, "known", t.known, "signed_mean",
-                  t.signed_mean, "mean", t.mean, "largest", t.largest, "seconds", v->spent_s,
-                  "machine", "cpu", v->machine.cpu, "cores", v->machine.cores, "load_average",
-                  v->machine.load_average, "gl_renderer", v->machine.gl_renderer, "scenes", scenes);
+    json_t *object = json_pack(
+        "{s:b, s:{s:f, s:f}, s:{s:i, s:i, s:i, s:i, s:i, s:i, s:f, s:f, s:f}, s:f, "
+        "s:{s:s, s:i, s:f, s:s}, "
+        "s:o, s:o}",
+        "passed", t.bad == 0, "bounds", "mean", JUDGE_MEAN_BOUND, "largest", JUDGE_LARGEST_BOUND,
+        "spectral", "views", t.views, "good", t.good, "mean_only", t.mean_only, "noisy", t.noisy,
+        "bad", t.bad, "known", t.known, "signed_mean", t.signed_mean, "mean", t.mean, "largest",
+        t.largest, "seconds", v->spent_s, "machine", "cpu", v->machine.cpu, "cores",
+        v->machine.cores, "load_average", v->machine.load_average, "gl_renderer",
+        v->machine.gl_renderer, "scenes", scenes, "clouds", pack_clouds(&v->clouds));
     char *text = object ? json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(7)) : NULL;
     json_decref(object);
     if (!text) {

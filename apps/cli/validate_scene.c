@@ -161,5 +161,10 @@ void validate_finish(struct validate *v)
         }
         trl_scene_destroy(&scene->scene);
     }
+    for (int look = 0; look < CLOUD_LOOKS; look++) {
+        free(v->clouds.looks[look].drawn);
+        free(v->clouds.looks[look].traced);
+        free(v->clouds.looks[look].map);
+    }
     v->scene_count = 0;
 }
