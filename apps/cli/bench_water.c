@@ -43,13 +43,37 @@ static const struct water_kind {
 } kinds[] = {{"clear", "\"chlorophyll_mg_m3\": 0.1, \"dissolved_per_m_440\": 0.01", 20000},
              {"algal", "\"chlorophyll_mg_m3\": 10, \"dissolved_per_m_440\": 0.1", 60000},
              {"muddy", "\"chlorophyll_mg_m3\": 1, \"mud_g_m3\": 10", 40000}};
-enum { KINDS = sizeof kinds / sizeof *kinds, DEPTHS = 4, SUNS = 2, PLACES = DEPTHS * SUNS };
+enum { KINDS = sizeof kinds / sizeof *kinds, DEPTHS = 4, SUNS = 2, EYES = 3 };
+enum { PLACES = EYES * DEPTHS * SUNS };
 
 static const double DEPTHS_M[DEPTHS] = {2, 4, 10, 100};
 static const struct hour {
     const char *name;
     double sun_zenith_rad;
 } hours[SUNS] = {{"noon", 0.35}, {"4 PM", 1.05}};
+// In the water half way down, but no deeper than DIVE_M; up is through Snell's window.
+static const double DIVE_M = 2;
+static const struct eye {
+    const char *name;
+    bool is_under;
+    double view_zenith_rad;
+} eyes[EYES] = {{"from above", false, 2.5}, {"under, down", true, 2.5}, {"under, up", true, 0.5}};
+
+// The place's number counts suns, then depths, then eyes.
+static int sun_of(int place)
+{
+    return place % SUNS;
+}
+
+static double depth_of(int place)
+{
+    return DEPTHS_M[place / SUNS % DEPTHS];
+}
+
+static const struct eye *eye_of(int place)
+{
+    return &eyes[place / SUNS / DEPTHS];
+}
 
 static double luminance(const double rgb[3])
 {
@@ -94,12 +118,12 @@ static trl_result compare_places(const struct bench_job *job, const struct water
         const int n = i / 2;
         const bool is_sky = i % 2;
         char place[BENCH_NAME_MAX];
-        snprintf(place, sizeof place, "%s, %g m, %s", kind->name, DEPTHS_M[n / SUNS],
-                 is_sky ? "sky" : hours[n % SUNS].name);
+        snprintf(place, sizeof place, "%s %s, %g m, %s", kind->name, eye_of(n)->name, depth_of(n),
+                 is_sky ? "sky" : hours[sun_of(n)].name);
         if (!is_sky) {
             result = add_errors(job, place, colours[0][n].star_rgb, colours[1][n].star_rgb,
                                 colours[2][n].star_rgb);
-        } else if (n % SUNS == 0) {
+        } else if (sun_of(n) == 0) {
             result = add_errors(job, place, colours[0][n].sky_rgb, colours[1][n].sky_rgb,
                                 colours[2][n].sky_rgb);
         }
@@ -121,9 +145,11 @@ trl_result bench_run_water_error(const struct bench_job *job)
         result = bare_scene_make(job->app, kinds[k].name, keys, &scene);
         trl_water_query queries[PLACES];
         for (int n = 0; n < PLACES; n++) {
-            queries[n] = (trl_water_query){.depth_m = DEPTHS_M[n / SUNS],
-                                           .sun_zenith_rad = hours[n % SUNS].sun_zenith_rad,
-                                           .view_zenith_rad = 2.5,
+            const double eye_m = fmin(0.5 * depth_of(n), DIVE_M);
+            queries[n] = (trl_water_query){.depth_m = depth_of(n),
+                                           .eye_depth_m = eye_of(n)->is_under ? eye_m : 0,
+                                           .sun_zenith_rad = hours[sun_of(n)].sun_zenith_rad,
+                                           .view_zenith_rad = eye_of(n)->view_zenith_rad,
                                            .azimuth_rad = 1,
                                            .wavelength_nm = 550};
         }

@@ -61,17 +61,17 @@ TRL_API TRL_MUST_USE trl_result trl_water_radiance(trl_context *ctx, const trl_s
                                                    const trl_water_query *queries, size_t count,
                                                    trl_water_light *lights);
 
-/// What leaves water as a colour: linear sRGB in the star's own light, pi times the radiance per
-/// irradiance of level water from above, so that a white wall is 1, 1, 1. Colours that no screen
-/// has are below 0.
+/// What a trl_water_light tells as a colour: linear sRGB in the star's own light, pi times the
+/// radiance per irradiance of level water from above, so that a white wall is 1, 1, 1. Colours that
+/// no screen has are below 0.
 typedef struct trl_water_colour {
     double star_rgb[3];
     double sky_rgb[3];
 } trl_water_colour;
 
-/// Colours as pictures show them, from the table that they are drawn with; by paths of light at 41
-/// wavelengths where the desc says so. Queries are for eyes above the water; their wavelengths do
-/// not count. Uses every core.
+/// Colours as pictures have them, from the tables that they are drawn with; by paths of light at 41
+/// wavelengths where the desc says so. The wavelengths of the queries do not count. Uses every
+/// core.
 /// @param desc          NULL: the default
 /// @param[out] colours  `count` of them
 /// @return as trl_water_radiance

@@ -6,6 +6,7 @@
 #include "api/water.h"
 #include "frame/daylight.h"
 #include "frame/sea.h"
+#include "frame/under_light.h"
 #include "ocean/volume.h"
 #include "shared/fresnel.glsl"
 #include "shared/sea.glsl"
@@ -46,9 +47,13 @@ static trl_result trace(const trl_context *ctx, const trl_scene *scene, const tr
     return TRL_OK;
 }
 
-static void look_up(const struct frame_sea *sea, const trl_water_query *query,
-                    trl_water_colour *out)
+static trl_result look_up(struct frame_sea *sea, const trl_water_query *query,
+                          trl_water_colour *out)
 {
+    const trl_result result = frame_sea_light(sea);
+    if (result != TRL_OK) {
+        return result;
+    }
     const struct sea_volume_rays rays = {.sun_mu = cos(query->sun_zenith_rad),
                                          .view_mu = -cos(query->view_zenith_rad),
                                          .azimuth_cosine = cos(query->azimuth_rad)};
@@ -63,20 +68,48 @@ static void look_up(const struct frame_sea *sea, const trl_water_query *query,
         out->star_rgb[c] = leaves * enters * star[c];
         out->sky_rgb[c] = leaves * sky[c];
     }
+    return TRL_OK;
+}
+
+// Between the columns that pictures mix.
+static trl_result look_up_under(const struct frame_sea *sea, struct under_columns *columns,
+                                const trl_water_query *query, trl_water_colour *out)
+{
+    const trl_result result = under_columns_find(columns, query->depth_m);
+    double star[VOLUME_WAVELENGTHS] = {0}, sky[VOLUME_WAVELENGTHS] = {0};
+    for (int i = 0; i < 2 * VOLUME_WAVELENGTHS && result == TRL_OK; i++) {
+        const int k = i / 2;
+        const struct volume_under *under = columns->of[i % 2];
+        const double share = i % 2 ? columns->part : 1 - columns->part;
+        const struct volume_view view = {.eye_depth_m = fmin(query->eye_depth_m, under->depth_m),
+                                         .sun_mu = cos(query->sun_zenith_rad),
+                                         .view_mu = cos(query->view_zenith_rad),
+                                         .azimuth_rad = query->azimuth_rad};
+        const struct volume_light light = volume_under_at(under, k, &view);
+        star[k] += share * M_PI * light.star;
+        sky[k] += share * M_PI * light.sky;
+    }
+    sea_volume_rgb(sea->volume, star, out->star_rgb);
+    sea_volume_rgb(sea->volume, sky, out->sky_rgb);
+    return result;
 }
 
 static trl_result find(const trl_context *ctx, const trl_scene *scene, const trl_water_desc *desc,
                        const trl_water_query *queries, size_t count, trl_water_colour *colours)
 {
     struct frame_sea sea = {.ctx = ctx};
+    struct under_columns columns = {.ctx = ctx, .ocean = &scene->ocean};
     trl_result result = desc->uses_reference ? TRL_OK : frame_sea_init(ctx, scene, &sea);
     for (size_t n = 0; n < count && result == TRL_OK; n++) {
         if (desc->uses_reference) {
             result = trace(ctx, scene, desc, &queries[n], &colours[n]);
+        } else if (queries[n].eye_depth_m > 0) {
+            result = look_up_under(&sea, &columns, &queries[n], &colours[n]);
         } else {
-            look_up(&sea, &queries[n], &colours[n]);
+            result = look_up(&sea, &queries[n], &colours[n]);
         }
     }
+    under_columns_finish(&columns);
     frame_sea_finish(&sea);
     return result;
 }
@@ -98,10 +131,6 @@ trl_result trl_water_colours(trl_context *ctx, const trl_scene *scene, const trl
         trl_water_query query = queries[n];
         query.wavelength_nm = FIRST_NM;
         result = water_check_query(ctx, &query, n);
-        if (result == TRL_OK && query.eye_depth_m > 0) {
-            result = trl_fail(ctx, TRL_ERROR_INVALID, TRL_LOG_ITEM_ARGUMENT,
-                              "query %zu: colours are for eyes above the water", n + 1);
-        }
     }
     return result == TRL_OK ? find(ctx, scene, &all, queries, count, colours) : result;
 }

@@ -311,7 +311,10 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
     const struct ground_extras extras = {.has_sky_view = sky->model->reads_sky_view,
                                          .sea_albedo = frame->sea.albedo,
                                          .time_s = shown->time_s};
-    trl_result result = ground_draw(&frame->ground, &shading, &extras, &frame->clock);
+    trl_result result = frame_sea_light(&frame->sea);
+    if (result == TRL_OK) {
+        result = ground_draw(&frame->ground, &shading, &extras, &frame->clock);
+    }
     struct sky_view view = {.camera = camera,
                             .highest_m = highest_m,
                             .surface = ground_surface(&frame->ground),

@@ -26,6 +26,9 @@ static trl_result init(const trl_context *ctx, const struct trl_scene *scene, bo
     *out = (struct relief){.lights_cd_m2 = ground_find_lights_cd_m2(scene),
                            .sea = frame_sea_surface(ctx, &scene->ocean)};
     trl_result result = has_pictures ? frame_sea_init(ctx, scene, &out->sea) : TRL_OK;
+    if (result == TRL_OK) {
+        result = frame_sea_light(&out->sea); // none without pictures
+    }
     struct surface_layer_desc layers[SCENE_MAX_LAYERS];
     struct surface_desc desc;
     ground_describe(ctx, scene, layers, &desc);

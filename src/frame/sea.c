@@ -44,47 +44,60 @@ static void fill_depth(const struct volume_table *table, int depth, struct sky_s
     }
 }
 
-static void fill_colours(const struct medium *medium, const double *nm, struct sky_sea_volume *out)
+// Without spectra.
+static trl_result describe(const trl_context *ctx, const struct medium *medium,
+                           struct sky_sea_volume **out)
 {
-    double weights[3][DAYLIGHT_MAX_WEIGHTS];
-    daylight_weights(medium, nm, SKY_SEA_WAVELENGTHS, weights);
-    for (int k = 0; k < SKY_SEA_WAVELENGTHS; k++) {
-        out->nm[k] = nm[k];
-        for (int c = 0; c < 3; c++) {
-            out->rgb_from_spectrum[c][k] = weights[c][k];
-        }
+    struct sky_sea_volume *volume = mem_alloc(ctx, 1, sizeof *volume);
+    *out = volume;
+    if (!volume) {
+        return TRL_ERROR_MEMORY;
     }
+    double weights[3][DAYLIGHT_MAX_WEIGHTS];
+    for (int k = 0; k < SKY_SEA_WAVELENGTHS; k++) {
+        volume->nm[k] = FIRST_NM + STEP_NM * k;
+    }
+    daylight_weights(medium, volume->nm, SKY_SEA_WAVELENGTHS, weights);
+    for (int i = 0; i < 3 * SKY_SEA_WAVELENGTHS; i++) {
+        volume->rgb_from_spectrum[i % 3][i / 3] = weights[i % 3][i / 3];
+    }
+    return TRL_OK;
 }
 
-trl_result frame_sea_make_volume(const trl_context *ctx, const struct ocean_desc *ocean,
-                                 const struct medium *medium, struct sky_sea_volume **out)
+static trl_result light_up(const trl_context *ctx, const struct ocean_desc *ocean,
+                           struct sky_sea_volume *volume)
 {
-    *out = NULL;
-    double nm[VOLUME_WAVELENGTHS];
-    for (int k = 0; k < VOLUME_WAVELENGTHS; k++) {
-        nm[k] = FIRST_NM + STEP_NM * k;
-    }
     struct volume_table *table = NULL;
-    trl_result result = volume_table_get(ctx, ocean, nm, VOLUME_WAVELENGTHS, &table);
+    const trl_result result = volume_table_get(ctx, ocean, volume->nm, VOLUME_WAVELENGTHS, &table);
     if (result == TRL_OK) {
-        *out = mem_alloc(ctx, 1, sizeof **out);
-        result = *out ? TRL_OK : TRL_ERROR_MEMORY;
-    }
-    if (result == TRL_OK) {
-        fill_colours(medium, nm, *out);
-        (*out)->critical = table->critical;
+        volume->critical = table->critical;
 #pragma omp parallel for schedule(dynamic)
         for (int i = 0; i < SKY_SEA_DEPTHS; i++) {
-            fill_depth(table, i, *out);
+            fill_depth(table, i, volume);
         }
     }
     volume_table_destroy(ctx, &table);
     return result;
 }
 
+trl_result frame_sea_make_volume(const trl_context *ctx, const struct ocean_desc *ocean,
+                                 const struct medium *medium, struct sky_sea_volume **out)
+{
+    trl_result result = describe(ctx, medium, out);
+    if (result == TRL_OK) {
+        result = light_up(ctx, ocean, *out);
+    }
+    if (result != TRL_OK) {
+        mem_free(ctx, *out);
+        *out = NULL;
+    }
+    return result;
+}
+
 struct frame_sea frame_sea_surface(const trl_context *ctx, const struct ocean_desc *ocean)
 {
     return (struct frame_sea){.ctx = ctx,
+                              .ocean = ocean,
                               .sea = {.is_there = ocean->is_there,
                                       .mean_square_slope = sea_mean_square_slope(&ocean->waves),
                                       .index = water_refractive_index(&ocean->water, MIDDLE_NM),
@@ -111,13 +124,22 @@ static void find_albedo(struct frame_sea *sea)
 trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
                           struct frame_sea *out)
 {
-    const struct ocean_desc *ocean = &scene->ocean;
-    *out = frame_sea_surface(ctx, ocean);
+    *out = frame_sea_surface(ctx, &scene->ocean);
     const trl_result result =
-        ocean->is_there ? frame_sea_make_volume(ctx, ocean, &scene->medium, &out->volume) : TRL_OK;
+        scene->ocean.is_there ? describe(ctx, &scene->medium, &out->volume) : TRL_OK;
     out->sea.volume = out->volume;
-    if (out->volume) {
-        find_albedo(out);
+    return result;
+}
+
+trl_result frame_sea_light(struct frame_sea *sea)
+{
+    if (!sea->volume || sea->is_lit) {
+        return TRL_OK;
+    }
+    const trl_result result = light_up(sea->ctx, sea->ocean, sea->volume);
+    sea->is_lit = result == TRL_OK;
+    if (sea->is_lit) {
+        find_albedo(sea);
     }
     return result;
 }

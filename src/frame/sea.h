@@ -9,24 +9,27 @@
 
 struct frame_sea {
     const trl_context *ctx;
+    const struct ocean_desc *ocean;
     struct sky_sea sea; // with the volume, if it is there
     struct sky_sea_volume *volume;
+    bool is_lit; // the volume has spectra, which eyes under water do without
     // Part of the light of an even sky that the deep sea sends back: its surface, white caps, and
-    // what comes out of it; linear sRGB. 0 where there is no volume.
+    // what comes out of it; linear sRGB. 0 where the volume is not lit.
     float albedo[3];
 };
 
 // Without what is below: no volume.
 struct frame_sea frame_sea_surface(const trl_context *ctx, const struct ocean_desc *ocean);
 
-// Solves the light in the water: half a second of processor time where there is an ocean, once: the
-// solution is kept on disk.
-// TRL_ERROR_MEMORY; *out is to be finished then too.
+// The scene must outlive it. TRL_ERROR_MEMORY; *out is to be finished then too.
 TRL_MUST_USE trl_result frame_sea_init(const trl_context *ctx, const struct trl_scene *scene,
                                        struct frame_sea *out);
+// What comes out of the water, if it is not known yet: half a second of processor time where there
+// is an ocean, once: the solution is kept on disk. TRL_ERROR_MEMORY.
+TRL_MUST_USE trl_result frame_sea_light(struct frame_sea *sea);
 void frame_sea_finish(struct frame_sea *sea);
 
-// The colours of water in that star's light. TRL_ERROR_MEMORY; free it with mem_free.
+// The colours of water in that star's light, lit. TRL_ERROR_MEMORY; free it with mem_free.
 TRL_MUST_USE trl_result frame_sea_make_volume(const trl_context *ctx,
                                               const struct ocean_desc *ocean,
                                               const struct medium *medium,

@@ -72,7 +72,8 @@ struct transport_channels peaked_channels(const struct peaked *peaked, const str
 
 struct table_size table_size_default(void)
 {
-    return (struct table_size){.altitudes = 32, .views = 128, .suns = 48, .azimuths = 8};
+    return (struct table_size){
+        .altitudes = 32, .views = 128, .suns = TABLE_MOST_SUNS, .azimuths = 8};
 }
 
 struct table_size table_size_draft(void)

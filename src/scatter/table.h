@@ -15,7 +15,7 @@
 #include "scatter/bands.h"
 #include "scatter/solver.h"
 
-enum { TABLE_MAX_PEAKED = 3, TEXEL_FLOATS = 4 };
+enum { TABLE_MAX_PEAKED = 3, TABLE_MOST_SUNS = 48, TEXEL_FLOATS = 4 };
 
 // Which constituents are peaked; the strongest ones when there are more than channels.
 struct peaked {

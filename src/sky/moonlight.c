@@ -72,14 +72,6 @@ static lanes reflect_lanes(const struct atmosphere *a, const struct body_desc *b
     return light;
 }
 
-// How far around the point below the eye things are seen that are as high as that, as an angle at
-// the planet's centre.
-static double reach_rad(const struct optics *o, double eye_m, double height_m)
-{
-    const double ground_m = o->ground_radius_m;
-    return acos(fmin(ground_m / eye_m, 1)) + acos(ground_m / (ground_m + fmax(height_m, 0)));
-}
-
 static double angle_between(struct vec3 a, struct vec3 b)
 {
     return acos(fmin(fmax(vec3_dot(a, b), -1), 1));
@@ -101,8 +93,8 @@ static struct scope find_scope(const struct atmosphere *a, const struct camera *
         .atmosphere = a, .foot = *camera, .up = vec3_normalize(camera->position_m)};
     const double eye_m = vec3_length(camera->position_m);
     scope.foot.position_m = vec3_scale(scope.up, o->ground_radius_m);
-    scope.air_rad = reach_rad(o, eye_m, o->top_radius_m - o->ground_radius_m);
-    scope.ground_rad = reach_rad(o, eye_m, highest_m);
+    scope.air_rad = sky_reach_rad(o->ground_radius_m, eye_m, o->top_radius_m - o->ground_radius_m);
+    scope.ground_rad = sky_reach_rad(o->ground_radius_m, eye_m, highest_m);
     return scope;
 }
 

@@ -45,6 +45,12 @@ double sky_pixels_eye_radius(const struct sky_pixels *pixels, const struct camer
     return fmax(vec3_length(camera->position_m), pixels->ground_radius_m + SKY_MIN_ALTITUDE_M);
 }
 
+double sky_reach_rad(double ground_radius_m, double eye_m, double height_m)
+{
+    return acos(fmin(ground_radius_m / eye_m, 1)) +
+           acos(ground_radius_m / (ground_radius_m + fmax(height_m, 0)));
+}
+
 void sky_set_vec3(struct gpu_program *program, const char *name, struct vec3 v)
 {
     const float values[3] = {(float)v.x, (float)v.y, (float)v.z};

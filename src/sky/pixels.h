@@ -36,6 +36,10 @@ bool sky_view_is_bare(const struct sky_view *view);
 // The eye's distance from the centre, never below the reference sphere.
 double sky_pixels_eye_radius(const struct sky_pixels *pixels, const struct camera *camera);
 
+// How far around the point below an eye things of that height above the ground are seen, as an
+// angle at the planet's centre. `eye_m` counts from there, too.
+double sky_reach_rad(double ground_radius_m, double eye_m, double height_m);
+
 // The uniforms of ray.glsl, for programs that are not drawn by sky_pixels_draw.
 void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *program,
                          const struct sky_view *view);

@@ -80,6 +80,7 @@ double sea_surface_reflectance(const struct sky_sea *sea, double mu, double *mir
 // The sky as seen from the sea: logarithms of a slice of the 4D table, one array a channel.
 struct seen_sky {
     const struct atmosphere *atmosphere;
+    int first, count; // of the table's suns
     float *slices[1 + TABLE_MAX_PEAKED];
 };
 
@@ -159,7 +160,7 @@ static void store_bands(const struct bands *bands, const double xyz[3], float *t
     }
 }
 
-// One view: all suns and azimuths.
+// One view: its suns and all azimuths.
 static void fill_view(const struct seen_sky *sky, const struct sky_sea *sea, int view,
                       float *texels)
 {
@@ -175,8 +176,9 @@ static void fill_view(const struct seen_sky *sky, const struct sky_sea *sea, int
         facets[i].share = facets[i].weight * facets[i].reflectance / reflectance;
         facets[i].view = view_cell(a, facets[i].mu);
     }
-    for (int index = 0; index < a->table.size.suns; index++) {
-        const struct seen_sun sun = {index, table_sun_mu(&a->table, index)};
+    for (int index = 0; index < sky->count; index++) {
+        const int of_table = sky->first + index;
+        const struct seen_sun sun = {of_table, table_sun_mu(&a->table, of_table)};
         const double sun_sine = sqrt(fmax(1 - sun.mu * sun.mu, 0));
         for (int az = 0; az < SEA_MIRROR_AZIMUTHS; az++) {
             const double half = asin((double)az / (SEA_MIRROR_AZIMUTHS - 1));
@@ -198,13 +200,26 @@ static void fill_view(const struct seen_sky *sky, const struct sky_sea *sea, int
     }
 }
 
+// Of the suns that are looked up.
+static void take_logarithms(const struct seen_sky *sky, float *slice)
+{
+    const struct table_size *n = &sky->atmosphere->table.size;
+    const size_t row = (size_t)n->azimuths * TEXEL_FLOATS;
+    for (int view = 0; view < n->views; view++) {
+        float *suns = slice + ((size_t)view * (size_t)n->suns + (size_t)sky->first) * row;
+        for (size_t k = 0; k < (size_t)sky->count * row; k++) {
+            suns[k] = logf(fmaxf(suns[k], 1e-20f));
+        }
+    }
+}
+
 trl_result sea_mirror_make(const struct atmosphere *atmosphere, const struct sky_sea *sea,
-                           float *texels)
+                           int first, int suns, float *texels)
 {
     const struct table *table = &atmosphere->table;
     const size_t count = (size_t)table->size.views * (size_t)table->size.suns *
                          (size_t)table->size.azimuths * TEXEL_FLOATS;
-    struct seen_sky sky = {.atmosphere = atmosphere};
+    struct seen_sky sky = {.atmosphere = atmosphere, .first = first, .count = suns};
     float *slices = mem_alloc(atmosphere->ctx, count * (size_t)table->channels, sizeof *slices);
     if (!slices) {
         return TRL_ERROR_MEMORY;
@@ -213,12 +228,9 @@ trl_result sea_mirror_make(const struct atmosphere *atmosphere, const struct sky
         sky.slices[c] = slices + (size_t)c * count;
         table_slice(table, atmosphere->optics, c, atmosphere->optics->ground_radius_m,
                     sky.slices[c]);
-        for (size_t k = 0; k < count; k++) {
-            sky.slices[c][k] = logf(fmaxf(sky.slices[c][k], 1e-20f));
-        }
+        take_logarithms(&sky, sky.slices[c]);
     }
-    const size_t view_floats =
-        (size_t)table->size.suns * SEA_LEVELS * SEA_MIRROR_AZIMUTHS * BAND_COUNT;
+    const size_t view_floats = (size_t)suns * SEA_LEVELS * SEA_MIRROR_AZIMUTHS * BAND_COUNT;
 #pragma omp parallel for schedule(dynamic, 1)
     for (int k = 0; k < SEA_MIRROR_VIEWS * SEA_LEVELS; k++) {
         const int view = k / SEA_LEVELS, level = k % SEA_LEVELS;

@@ -47,8 +47,9 @@ struct sky_sea sea_at_level(const struct sky_sea *sea, int level);
 // uniform in the root of their cosine, suns as in the 4D table, azimuths of the mirrored ray from
 // the star's in the sine of their half: dense where the aureole is.
 enum { SEA_MIRROR_VIEWS = 24, SEA_MIRROR_AZIMUTHS = 16 };
-// TRL_ERROR_MEMORY.
+// Of the table's suns so many, from one on. TRL_ERROR_MEMORY.
 TRL_MUST_USE trl_result sea_mirror_make(const struct atmosphere *atmosphere,
-                                        const struct sky_sea *sea, float *texels);
+                                        const struct sky_sea *sea, int first, int count,
+                                        float *texels);
 
 #endif // SKY_SEA_H

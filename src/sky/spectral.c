@@ -274,10 +274,11 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
         result = spectral_maps_update(&sky->maps, &eye);
     }
     if (result == TRL_OK) {
-        result = spectral_sea_prepare(&sky->sea, &sky->maps, view, find_sea_shades(&shades));
+        result = spectral_sea_prepare(&sky->sea, &sky->maps, view, camera->sun_direction,
+                                      find_sea_shades(&shades));
     }
     if (result == TRL_OK && view->moon.is_there) {
-        result = spectral_sea_prepare(&sky->sea, &sky->maps, view, 0);
+        result = spectral_sea_prepare(&sky->sea, &sky->maps, view, view->moon.sight.direction, 0);
     }
     return result == TRL_OK ? moonlight_prepare(&sky->moonlight, &sky->maps, view) : result;
 }

@@ -3,8 +3,11 @@
 #include "sky/spectral_sea.h"
 
 #include "shared/sea.glsl"
+#include "shared/sky_map.glsl"
 
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 void spectral_sea_init(const struct sky_desc *desc, struct spectral_sea *out)
 {
@@ -19,8 +22,8 @@ void spectral_sea_drop(struct spectral_sea *sea)
         sea->has_program[i] = false;
     }
     gpu_texture_finish(&sea->mirror);
+    memset(sea->has_sun, 0, sizeof sea->has_sun);
     sea_water_drop(&sea->water); // its bands are the atmosphere's
-    sea->has_mirror = false;
 }
 
 void spectral_sea_finish(struct spectral_sea *sea)
@@ -30,18 +33,72 @@ void spectral_sea_finish(struct spectral_sea *sea)
     *sea = (struct spectral_sea){0};
 }
 
-static trl_result make_mirror(struct spectral_sea *sea, const struct atmosphere *a)
+// Waves are no higher.
+static const double WAVES_M = 50;
+
+// The suns of the table between which a view sees water under a light.
+struct suns {
+    int first, last;
+};
+
+static struct suns find_suns(const struct atmosphere *a, const struct sky_view *view,
+                             struct vec3 light)
+{
+    const struct table *t = &a->table;
+    const struct vec3 eye_m = view->camera->position_m;
+    const double mu = vec3_dot(vec3_normalize(eye_m), light);
+    const double angle = acos(fmin(fmax(mu, -1), 1));
+    const double reach =
+        sky_reach_rad(a->optics->ground_radius_m, vec3_length(eye_m), view->highest_m + WAVES_M);
+    const double lowest = sky_map_sun(cos(fmin(angle + reach, M_PI)), t->sun_centre, t->sun_width,
+                                      t->sun_first, t->sun_last);
+    const double highest = sky_map_sun(cos(fmax(angle - reach, 0)), t->sun_centre, t->sun_width,
+                                       t->sun_first, t->sun_last);
+    return (struct suns){.first = table_cell_at(lowest, t->size.suns).below,
+                         .last = table_cell_at(highest, t->size.suns).below + 1};
+}
+
+static trl_result fill_suns(struct spectral_sea *sea, const struct atmosphere *a, int first,
+                            int count)
+{
+    const struct gpu_region region = {
+        .y = (uint32_t)first,
+        .width = sea->mirror.width,
+        .height = (uint32_t)count,
+        .depth = sea->mirror.depth,
+    };
+    const size_t texels = (size_t)region.width * region.height * region.depth;
+    float *light = mem_alloc(a->ctx, texels * BAND_COUNT, sizeof *light);
+    trl_result result =
+        light ? sea_mirror_make(a, sea->water.sea, first, count, light) : TRL_ERROR_MEMORY;
+    if (result == TRL_OK) {
+        result = gpu_texture_upload(&sea->mirror, &region, light);
+    }
+    mem_free(a->ctx, light);
+    for (int i = 0; i < count && result == TRL_OK; i++) {
+        sea->has_sun[first + i] = true;
+    }
+    return result;
+}
+
+// From the ground two of the table's suns are looked up, from far away all: a sun takes as long as
+// the rest of a small picture.
+static trl_result fit_mirror(struct spectral_sea *sea, const struct atmosphere *a,
+                             const struct suns *suns)
 {
     const uint32_t size[3] = {SEA_LEVELS * SEA_MIRROR_AZIMUTHS, (uint32_t)a->table.size.suns,
                               SEA_MIRROR_VIEWS};
-    float *texels =
-        mem_alloc(a->ctx, (size_t)size[0] * size[1] * size[2] * BAND_COUNT, sizeof *texels);
-    trl_result result = texels ? sea_mirror_make(a, sea->water.sea, texels) : TRL_ERROR_MEMORY;
-    if (result == TRL_OK) {
-        result = sky_make_map(sea->gpu, "mirrored sky", size, texels, &sea->mirror);
+    trl_result result = TRL_OK;
+    if (!sea->mirror.name) {
+        result = sky_make_map(sea->gpu, "mirrored sky", size, NULL, &sea->mirror);
     }
-    mem_free(a->ctx, texels);
-    sea->has_mirror = result == TRL_OK;
+    for (int i = suns->first; i <= suns->last && result == TRL_OK; i++) {
+        const int first = i;
+        while (i <= suns->last && !sea->has_sun[i]) {
+            i++;
+        }
+        result = i > first ? fill_suns(sea, a, first, i - first) : TRL_OK;
+    }
     return result;
 }
 
@@ -71,14 +128,15 @@ static trl_result make_program(struct spectral_sea *sea, const struct atmosphere
 }
 
 trl_result spectral_sea_prepare(struct spectral_sea *sea, const struct spectral_maps *maps,
-                                const struct sky_view *view, unsigned shades)
+                                const struct sky_view *view, struct vec3 light, unsigned shades)
 {
     if (!sea_water_is_seen(&sea->water, view)) {
         return TRL_OK;
     }
     trl_result result = sea_water_prepare(&sea->water, sea->gpu, &maps->atmosphere->bands);
-    if (result == TRL_OK && !sea->has_mirror) {
-        result = make_mirror(sea, maps->atmosphere);
+    if (result == TRL_OK) {
+        const struct suns suns = find_suns(maps->atmosphere, view, light);
+        result = fit_mirror(sea, maps->atmosphere, &suns);
     }
     return result == TRL_OK && !sea->has_program[shades]
                ? make_program(sea, maps->atmosphere, shades)

@@ -147,13 +147,15 @@ static void shallow_water_shows_its_bed(void **state)
     }
 }
 
+#define AIR                                                                                        \
+    "\"atmosphere\": {\"height_m\": 60000, \"constituents\": [{\"name\": \"air\","                 \
+    " \"scattering_per_m\": 1.3e-5, \"profile\": {\"exponential\": {\"scale_height_m\": "          \
+    "8000}}, \"phase\": \"rayleigh\"}]}"
+
 // What pictures have where the sea is does not light the air above it.
 static void the_air_over_the_sea_does_not_know_its_picture(void **state)
 {
-    const char *const air =
-        ", \"atmosphere\": {\"height_m\": 60000, \"constituents\": [{\"name\": \"air\","
-        " \"scattering_per_m\": 1.3e-5, \"profile\": {\"exponential\": {\"scale_height_m\": "
-        "8000}}, \"phase\": \"rayleigh\"}]}, \"ocean\": {\"waves\": {\"count\": 4}}";
+    const char *const air = ", " AIR ", \"ocean\": {\"waves\": {\"count\": 4}}";
     double greens[2][SUNS];
     for (int i = 0; i < 2; i++) {
         look_down(*state, i ? "white" : "black", air, ELEVATIONS_DEG, greens[i]);
@@ -161,6 +163,49 @@ static void the_air_over_the_sea_does_not_know_its_picture(void **state)
     for (int i = 0; i < SUNS; i++) {
         printf("over black %g, over white %g\n", greens[0][i], greens[1][i]);
         assert_true(fabs(greens[1][i] / greens[0][i] - 1) < 1e-3);
+    }
+}
+
+// From a height, toward the star and down, with each of these suns in turn: the last picture.
+static void look_on(const struct setup *s, double altitude_m, const double *elevations_deg,
+                    size_t suns, float *radiance)
+{
+    char text[1024];
+    const int length = snprintf(text, sizeof text, scene_format, "white",
+                                ", " AIR ", \"ocean\": {\"waves\": {\"count\": 4}}");
+    trl_scene *scene = NULL;
+    trl_renderer *renderer = NULL;
+    assert_int_equal(trl_scene_parse(s->f->ctx, text, (size_t)length, "sea", s->folder, &scene),
+                     TRL_OK);
+    trl_renderer_desc desc = trl_renderer_desc_default();
+    desc.scene = scene;
+    desc.max_orders = 1; // solved at once
+    assert_int_equal(trl_renderer_create(s->f->ctx, &desc, &renderer), TRL_OK);
+    trl_view view = trl_view_default();
+    view.longitude_rad = 1;
+    view.altitude_m = altitude_m;
+    view.pitch_rad = -0.6;
+    view.vertical_fov_rad = 1;
+    view.sun_mode = TRL_SUN_LOCAL;
+    for (size_t i = 0; i < suns; i++) {
+        view.sun_latitude_or_elevation_rad = elevations_deg[i] * PI / 180;
+        assert_int_equal(trl_renderer_draw(renderer, &view, SIZE, SIZE, 0), TRL_OK);
+    }
+    assert_int_equal(trl_renderer_read_radiance(renderer, radiance), TRL_OK);
+    trl_renderer_destroy(&renderer);
+    trl_scene_destroy(&scene);
+}
+
+// What is mirrored is made for the suns that a view has, when it has them.
+static void the_sea_mirrors_the_sky_under_every_sun(void **state)
+{
+    static float first[4 * SIZE * SIZE], later[4 * SIZE * SIZE];
+    static const double suns_deg[] = {50, 4};
+    static const double altitudes_m[] = {10, 1e6};
+    for (size_t i = 0; i < sizeof altitudes_m / sizeof *altitudes_m; i++) {
+        look_on(*state, altitudes_m[i], suns_deg, 2, later);
+        look_on(*state, altitudes_m[i], suns_deg + 1, 1, first);
+        assert_memory_equal(first, later, sizeof first);
     }
 }
 
@@ -220,6 +265,7 @@ int main(void)
         cmocka_unit_test(the_glint_is_that_of_the_slopes),
         cmocka_unit_test(shallow_water_shows_its_bed),
         cmocka_unit_test(the_air_over_the_sea_does_not_know_its_picture),
+        cmocka_unit_test(the_sea_mirrors_the_sky_under_every_sun),
         cmocka_unit_test(every_model_has_the_same_waves),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
