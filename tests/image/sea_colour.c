@@ -69,7 +69,8 @@ static void drawn_water_has_the_colour_of_the_paths(void **state)
     sea_scene_begin(&s);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double drawn[3], traced[3], error[3];
-        trl_scene *scene = sea_scene_make(&s, 0.001, waters[cases[i].water], cases[i].depth_m);
+        trl_scene *scene = sea_scene_make(&s, "\"wind_m_s\": 0, \"mean_square_slope\": 0.001",
+                                          waters[cases[i].water], cases[i].depth_m);
         look(s.ctx, scene, drawn, traced, error);
         trl_scene_destroy(&scene);
         for (int c = 0; c < 3; c++) {

@@ -30,7 +30,7 @@ static const char sea_scene_format[] =
     "   [550, 1.15e-5], [600, 8.1e-6], [700, 4.3e-6], [830, 2.2e-6]],"
     "  \"profile\": {\"exponential\": {\"scale_height_m\": 8000}}, \"phase\": \"rayleigh\"}]},"
     " \"surface\": {\"layers\": [{\"elevation\": \"black.png\"}, {\"water\": \"white.png\"}]},"
-    " \"ocean\": {\"waves\": {\"wind_m_s\": 0, \"mean_square_slope\": %g, \"whitecaps\": 0},"
+    " \"ocean\": {\"waves\": {%s, \"whitecaps\": 0},"
     "  \"water\": {%s}, \"bed\": {\"albedo\": 0.4, \"depth_m\": %g}}}";
 
 static inline void sea_scene_write(const struct sea_scene *s, const char *name, uint8_t value)
@@ -65,12 +65,11 @@ static inline void sea_scene_end(struct sea_scene *s)
     trl_context_destroy(&s->ctx);
 }
 
-static inline trl_scene *sea_scene_make(const struct sea_scene *s, double mean_square_slope,
+static inline trl_scene *sea_scene_make(const struct sea_scene *s, const char *waves,
                                         const char *water, double depth_m)
 {
     char text[2048];
-    const int length =
-        snprintf(text, sizeof text, sea_scene_format, mean_square_slope, water, depth_m);
+    const int length = snprintf(text, sizeof text, sea_scene_format, waves, water, depth_m);
     trl_scene *scene = NULL;
     assert_int_equal(trl_scene_parse(s->ctx, text, (size_t)length, "sea", s->folder, &scene),
                      TRL_OK);

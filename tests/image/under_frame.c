@@ -151,7 +151,8 @@ static void eyes_see_what_paths_find(void **state)
     struct sea_scene s;
     sea_scene_begin(&s);
     for (size_t w = 0; w < 2; w++) {
-        trl_scene *scene = sea_scene_make(&s, 0.01, waters[w], 10);
+        trl_scene *scene =
+            sea_scene_make(&s, "\"wind_m_s\": 0, \"mean_square_slope\": 0.01", waters[w], 10);
         trl_renderer_desc desc = trl_renderer_desc_default();
         desc.scene = scene;
         trl_renderer *renderer = NULL;
