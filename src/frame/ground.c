@@ -4,6 +4,7 @@
 
 #include "frame/daylight.h"
 #include "frame/invention.h"
+#include "ocean/fetch.h"
 #include "ocean/sea.h"
 #include "shared/blend.glsl"
 #include "terrain/look.h"
@@ -162,6 +163,7 @@ static trl_result make_waves(struct ground *ground, const struct trl_scene *scen
         result = facets_init(ground->gpu, &ground->waves, &ground->facets);
     }
     if (result == TRL_OK) {
+        ground->facets.waves.shores = &ground->surface;
         result = sea_mesh_init(&ground->surface, &ground->facets.waves, &ground->sea_mesh);
     }
     ground->has_waves = result == TRL_OK;
@@ -484,8 +486,11 @@ double ground_wave_m(const struct ground *ground, double latitude_rad, double lo
     if (!ground->has_waves) {
         return 0;
     }
-    waves_view_make(&ground->waves, vec3_from_lat_lon(latitude_rad, longitude_rad), time_s,
-                    ground->stand);
+    const struct vec3 place =
+        vec3_scale(vec3_from_lat_lon(latitude_rad, longitude_rad), ground->surface.radius_m);
+    const double fetch_m = fetch_find_m(&ground->surface, &ground->waves.wind, place);
+    waves_view_make_within(&ground->waves, &(struct waves_eye){place, time_s, fetch_m},
+                           ground->stand);
     return waves_stand_find(ground->stand, ground->waves.radius_m, BOAT_M, 1).height_m;
 }
 

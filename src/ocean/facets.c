@@ -58,15 +58,17 @@ trl_result facets_resize(struct facets *facets, const struct gpu_texture *depth)
     return result;
 }
 
-static void set_foam(const struct sea_surf *surf, struct gpu_program *program)
+// Where waves are lower, they break in as much less water.
+static void set_foam(const struct wave_texture *waves, struct gpu_program *program)
 {
+    const struct sea_surf *surf = &waves->waves->surf;
     float ramps[SEA_SURF_STEPS + 1][4] = {{0}};
     for (int i = 0; i <= SEA_SURF_STEPS; i++) {
         ramps[i][0] = (float)surf->ramps[i].first;
         ramps[i][1] = (float)surf->ramps[i].width;
     }
     gpu_program_set_vec4s(program, "u_foam", ramps[0], SEA_SURF_STEPS + 1);
-    gpu_program_set_float(program, "u_broken", (float)surf->broken_m);
+    gpu_program_set_float(program, "u_broken", (float)(waves->view->height_part * surf->broken_m));
 }
 
 trl_result facets_draw(struct facets *facets, const struct facets_inputs *in)
@@ -84,7 +86,7 @@ trl_result facets_draw(struct facets *facets, const struct facets_inputs *in)
     gpu_program_set_texture(program, "u_albedo", in->albedo);
     gpu_program_set_texture(program, "u_lights", in->lights);
     gpu_program_set_float(program, "u_pixel_rad", (float)pixel_rad);
-    set_foam(&facets->waves.waves->surf, program);
+    set_foam(&facets->waves, program);
     gpu_program_set_float(program, "u_depth", in->water_depth);
     const struct gpu_pass pass = {
         .target = &facets->target, .state = {.depth = GPU_DEPTH_FARTHER}, .clears_color = true};

@@ -103,10 +103,7 @@ static trl_result make_programs(struct sea_mesh *m)
 trl_result sea_mesh_init(const struct surface *surface, struct wave_texture *waves,
                          struct sea_mesh *out)
 {
-    *out = (struct sea_mesh){.gpu = surface->gpu,
-                             .surface = surface,
-                             .waves = waves,
-                             .wave_height_m = waves_significant_height_m(waves->waves)};
+    *out = (struct sea_mesh){.gpu = surface->gpu, .surface = surface, .waves = waves};
     trl_result result = make_grid_targets(out);
     result = result == TRL_OK ? make_mesh(out) : result;
     result = result == TRL_OK ? make_programs(out) : result;
@@ -273,12 +270,13 @@ static void centre_rings(struct sea_mesh *m)
 trl_result sea_mesh_draw(struct sea_mesh *m, const struct sea_mesh_inputs *in)
 {
     const double pixel_rad = 2 * in->camera->tan_half_fov_y / in->ground->height;
+    trl_result result = wave_texture_update(m->waves, in->camera->position_m, in->time_s);
+    m->wave_height_m = wave_texture_height_m(m->waves);
     m->plan = sea_mesh_plan_make(in->camera, m->surface->radius_m, m->wave_height_m, pixel_rad);
-    if (!m->plan.is_seen) {
-        return TRL_OK;
+    if (result != TRL_OK || !m->plan.is_seen) {
+        return result;
     }
     const struct anchor anchor = anchor_below(in->camera->position_m);
-    trl_result result = wave_texture_update(m->waves, in->camera->position_m, in->time_s);
     centre_rings(m);
     result = result == TRL_OK ? draw_shore(m, &anchor) : result;
     result = result == TRL_OK ? find_open(m) : result;

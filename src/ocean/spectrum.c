@@ -63,6 +63,12 @@ double wave_spectrum_at(const struct wave_spectrum *s, double omega_per_s)
            exp(-1.25 * pow(x, -4)) * pow(s->gamma, r);
 }
 
+double wave_spectrum_variance_m2(const struct wave_spectrum *s)
+{
+    return s->alpha * s->gravity_m_s2 * s->gravity_m_s2 * integrate_shape(s->gamma) /
+           pow(s->peak_per_s, 4);
+}
+
 double wave_spread_exponent(const struct wave_spectrum *s, double omega_per_s)
 {
     const double x = omega_per_s / s->peak_per_s;

@@ -21,6 +21,9 @@ struct wave_spectrum wave_spectrum_make(const struct ocean_waves *waves, double 
 // Variance of the height per angular frequency, m^2 s.
 double wave_spectrum_at(const struct wave_spectrum *spectrum, double omega_per_s);
 
+// Of the height, all frequencies, m^2.
+double wave_spectrum_variance_m2(const struct wave_spectrum *spectrum);
+
 // Wavenumber in deep water: omega^2 = g k.
 static inline double wave_number_per_m(double omega_per_s, double gravity_m_s2)
 {

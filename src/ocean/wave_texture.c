@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "ocean/wave_texture.h"
 
+#include "ocean/fetch.h"
 #include "shared/sea.glsl"
 
 #include <math.h>
@@ -41,14 +42,18 @@ static trl_result fit_texture(struct wave_texture *t)
 
 trl_result wave_texture_update(struct wave_texture *t, struct vec3 eye_m, double time_s)
 {
-    if (t->is_made && t->time_s == time_s && t->place.x == eye_m.x && t->place.y == eye_m.y &&
-        t->place.z == eye_m.z) {
+    const bool is_there =
+        t->is_made && t->place.x == eye_m.x && t->place.y == eye_m.y && t->place.z == eye_m.z;
+    if (is_there && t->time_s == time_s) {
         return TRL_OK;
+    }
+    if (!is_there) {
+        t->fetch_m = t->shores ? fetch_find_m(t->shores, &t->waves->wind, eye_m) : HUGE_VAL;
     }
     t->place = eye_m;
     t->time_s = time_s;
     t->is_made = false;
-    waves_view_make(t->waves, eye_m, time_s, t->view);
+    waves_view_make_within(t->waves, &(struct waves_eye){eye_m, time_s, t->fetch_m}, t->view);
     trl_result result = fit_texture(t);
     if (result == TRL_OK && t->view->groups > 0) {
         const struct gpu_region all = gpu_texture_region(&t->texture, 0);
@@ -56,6 +61,11 @@ trl_result wave_texture_update(struct wave_texture *t, struct vec3 eye_m, double
     }
     t->is_made = result == TRL_OK;
     return result;
+}
+
+double wave_texture_height_m(const struct wave_texture *t)
+{
+    return t->view->height_part * waves_significant_height_m(t->waves);
 }
 
 static double breaking_of(const struct wave_texture *t)

@@ -6,15 +6,17 @@
 
 #include "gpu/program.h"
 #include "ocean/waves.h"
+#include "terrain/surface.h"
 
 // Owner: caller. Must not outlive the waves.
 struct wave_texture {
     struct gpu *gpu;
     const struct waves *waves;
-    struct waves_view *view; // owned; as uploaded last
+    const struct surface *shores; // they end the fetch of an eye's waves; NULL: nothing does
+    struct waves_view *view;      // owned; as uploaded last
     struct gpu_texture texture;
     struct vec3 place;
-    double time_s;
+    double time_s, fetch_m;
     bool is_made;
 };
 
@@ -26,6 +28,9 @@ void wave_texture_finish(struct wave_texture *texture);
 // For an eye and a time; nothing where both are those of before. TRL_ERROR_GPU.
 TRL_MUST_USE trl_result wave_texture_update(struct wave_texture *texture, struct vec3 eye_m,
                                             double time_s);
+
+// Significant height of those waves, m; after an update.
+double wave_texture_height_m(const struct wave_texture *texture);
 
 // After an update.
 void wave_texture_bind(const struct wave_texture *texture, struct gpu_program *program);

@@ -19,6 +19,10 @@ static const double BREAKING_OF_PEAK = 80;
 // Of the numbers that directions are drawn from.
 static const uint32_t DIRECTIONS = 0x5bd1e995;
 
+// Where the laws of growth have been measured, about, and how much more than the spectrum's the
+// steepness of a short sea may be.
+static const double LEAST_FETCH_M = 100, MOST_STEEPER = 3;
+
 enum { STEPS = 4096 };
 
 // Along the ground and up; at a pole, east is that of longitude 0.
@@ -150,6 +154,8 @@ trl_result waves_init(const struct waves_desc *desc, struct waves *out)
     const struct ocean_waves *waves = &desc->ocean->waves;
     *out = (struct waves){.ctx = desc->ctx,
                           .radius_m = desc->radius_m,
+                          .wind = *waves,
+                          .gravity_m_s2 = desc->ocean->gravity_m_s2,
                           .seed = waves->seed,
                           .count = waves->wind_m_s > 0 ? waves->count : 0};
     out->components = mem_alloc(desc->ctx, waves->count, sizeof *out->components);
@@ -257,7 +263,48 @@ static struct vec3 find_origin(uint32_t cell, double bearing_rad)
 struct eye {
     struct axes axes;
     double time_s;
+    double parts[OCEAN_MAX_WAVES]; // of each component's amplitude
 };
+
+// Of components that a fetch leaves, as parts of their amplitude, and of the height of all. The
+// variance of each is as much less as the spectrum of that fetch is below the scene's. Where it is
+// above, short seas are steep about their peak, but what is shorter is saturated in every sea
+// (Phillips 1958, J. Fluid Mech. 4): more of it by the inverse square of the frequency, and so much
+// that all together has the variance of that fetch.
+static double find_parts(const struct waves *waves, double fetch_m, double *parts)
+{
+    for (uint32_t i = 0; i < waves->count; i++) {
+        parts[i] = 1;
+    }
+    if (waves->count == 0 || !(fetch_m < waves->wind.fetch_m)) {
+        return 1;
+    }
+    struct ocean_waves near = waves->wind;
+    near.spectrum = OCEAN_JONSWAP;
+    near.fetch_m = fmax(fetch_m, LEAST_FETCH_M);
+    const struct wave_spectrum whole = wave_spectrum_make(&waves->wind, waves->gravity_m_s2);
+    const struct wave_spectrum part = wave_spectrum_make(&near, waves->gravity_m_s2);
+    double all = 0, kept = 0, steeper = 0, more[OCEAN_MAX_WAVES];
+    for (uint32_t i = 0; i < waves->count; i++) {
+        const struct wave_component *c = &waves->components[i];
+        const double ratio = wave_spectrum_at(&part, c->omega_per_s) /
+                             fmax(wave_spectrum_at(&whole, c->omega_per_s), 1e-300);
+        const double over = fmax(c->omega_per_s / part.peak_per_s, 1);
+        const double variance = 0.5 * c->amplitude_m * c->amplitude_m;
+        parts[i] = fmin(ratio, 1);
+        more[i] = fmax(ratio - 1, 0) / (over * over);
+        all += variance;
+        kept += variance * parts[i];
+        steeper += variance * more[i];
+    }
+    const double wanted =
+        all * wave_spectrum_variance_m2(&part) / wave_spectrum_variance_m2(&whole);
+    const double scale = steeper > 0 ? fmin(fmax((wanted - kept) / steeper, 0), MOST_STEEPER) : 0;
+    for (uint32_t i = 0; i < waves->count; i++) {
+        parts[i] = sqrt(parts[i] + scale * more[i]);
+    }
+    return sqrt((kept + scale * steeper) / all);
+}
 
 static void put_wave(const struct waves *waves, const struct eye *eye, const struct cell *cell,
                      uint32_t component, struct waves_view *out)
@@ -274,7 +321,7 @@ static void put_wave(const struct waves *waves, const struct eye *eye, const str
     const double values[WAVES_FIELDS] = {o.x,
                                          o.y,
                                          o.z,
-                                         c->amplitude_m * sqrt(cell->share),
+                                         c->amplitude_m * eye->parts[component] * sqrt(cell->share),
                                          c->wavenumber_per_m,
                                          remainder(phase, 2 * M_PI),
                                          0};
@@ -309,7 +356,14 @@ static void steepen(struct waves_view *view)
 void waves_view_make(const struct waves *waves, struct vec3 place, double time_s,
                      struct waves_view *out)
 {
-    const struct eye eye = {find_axes(place), time_s};
+    waves_view_make_within(waves, &(struct waves_eye){place, time_s, HUGE_VAL}, out);
+}
+
+void waves_view_make_within(const struct waves *waves, const struct waves_eye *at,
+                            struct waves_view *out)
+{
+    struct eye eye = {.axes = find_axes(at->place), .time_s = at->time_s};
+    out->height_part = find_parts(waves, at->fetch_m, eye.parts);
     struct cell cells[WAVES_MAX_CELLS];
     const int count = find_cells(eye.axes.up, cells);
     out->count = 0;

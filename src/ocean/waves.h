@@ -26,6 +26,8 @@ struct wave_component {
 struct waves {
     const trl_context *ctx;
     double radius_m; // of the sea's level
+    struct ocean_waves wind;
+    double gravity_m_s2;
     uint32_t seed;
     uint32_t count;
     struct wave_component *components; // owned; the longest first
@@ -56,7 +58,14 @@ enum { WAVES_MAX_CELLS = 4, WAVES_LANES = 4, WAVES_FIELDS = 7 };
 enum { WAVES_MAX_GROUPS = WAVES_MAX_CELLS * OCEAN_MAX_WAVES / WAVES_LANES };
 struct waves_view {
     uint32_t count, groups;
+    double height_part; // significant height, over that of the waves' own fetch
     float texels[WAVES_MAX_GROUPS][WAVES_FIELDS][WAVES_LANES];
+};
+
+struct waves_eye {
+    struct vec3 place; // any length but 0
+    double time_s;
+    double fetch_m;
 };
 
 // For an eye above that place (any length but 0), which is the anchor; axes east, north and up.
@@ -65,6 +74,11 @@ struct waves_view {
 // others.
 void waves_view_make(const struct waves *waves, struct vec3 place, double time_s,
                      struct waves_view *out);
+
+// The same where the wind has blown over no more than that: what it could not have raised is
+// missing, and the height is that of such a sea.
+void waves_view_make_within(const struct waves *waves, const struct waves_eye *eye,
+                            struct waves_view *out);
 
 // Where the sea stands below the anchor: which place waves move there (a long one moves all water
 // near it by metres), and how high. `side_m`: of what floats there, and follows no shorter waves.

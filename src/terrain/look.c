@@ -91,6 +91,32 @@ static struct mask_look find_mask(const struct surface *surface, struct place at
     return look;
 }
 
+// Within so much of sea level a place of invented ground is part water, m.
+static const double SHORE_M = 20;
+
+double surface_open_water(const struct surface *surface, struct vec3 direction)
+{
+    double water = find_mask(surface, find_place(direction)).water;
+    if (surface->is_invented && surface->noise.desc.has_sea) {
+        const double altitude_m =
+            noise_ground_at(&surface->noise, vec3_normalize(direction)).height_m;
+        water = fmax(water, fmax(0, fmin(1, 0.5 - altitude_m / SHORE_M)));
+    }
+    return water;
+}
+
+double surface_mask_texel_rad(const struct surface *surface)
+{
+    double finest_rad = INFINITY;
+    for (size_t i = 0; i < surface->counts[SURFACE_WATER] && surface->depth.is_told; i++) {
+        finest_rad = fmin(finest_rad, surface->layers[SURFACE_WATER][i].frame.texel_height);
+    }
+    if (surface->is_invented && surface->noise.desc.has_sea) {
+        finest_rad = fmin(finest_rad, SHARED_PI / surface->noise.map.height);
+    }
+    return isfinite(finest_rad) ? finest_rad : 0;
+}
+
 // Of the layers without octaves, linear between texels, as shaders look at it: with the sea's bed
 // where they have one.
 struct level {

@@ -19,6 +19,11 @@ bool surface_biomes(const struct surface *surface, struct vec3 direction, double
 // surface tells depths; masks in tiles at the level that is held.
 double surface_water(const struct surface *surface, struct vec3 direction, double *depth_code);
 
+// Part of a place that is open water as masks have it between their texels, or where invented
+// ground lies below the sea by its map; and how large a texel of that is: 0 where there is neither.
+double surface_open_water(const struct surface *surface, struct vec3 direction);
+double surface_mask_texel_rad(const struct surface *surface);
+
 // Unit normal of the composed heights.
 struct vec3 surface_normal(const struct surface *surface, struct vec3 direction);
 

@@ -5,6 +5,8 @@
 
 #include "ocean/spectrum.h"
 
+#include <stdio.h>
+
 static double find_height(const struct wave_spectrum *s)
 {
     double sum = 0;
@@ -362,9 +364,44 @@ static void seed_tells_the_sea_and_calm_has_none(void **state)
     waves_finish(&b);
 }
 
+// Within a shorter fetch than the scene's the same waves have the height that such a sea has, none
+// much longer than its own, and slopes no steeper than those of the whole sea.
+static void waves_of_a_lake_are_those_of_its_fetch(void **state)
+{
+    struct waves waves;
+    struct waves_view *view = test_malloc(sizeof *view);
+    const struct ocean_desc ocean = waves_describe(9, OCEAN_JONSWAP, 60);
+    waves_make(*state, &ocean, &waves);
+    for (double fetch_m = 1000; fetch_m < 1e5; fetch_m *= 3) {
+        const double variance_m2 = 1.6e-7 * fetch_m * 9 * 9 / GRAVITY;
+        const double peak_per_s = 22 * cbrt(GRAVITY * GRAVITY / (9 * fetch_m));
+        const struct waves_eye eye = {{RADIUS_M, 0, 0}, 0, fetch_m};
+        waves_view_make_within(&waves, &eye, view);
+        double variance = 0, slopes = 0, longer = 0;
+        for (uint32_t i = 0; i < view->count; i++) {
+            const GerstnerWave w = waves_view_get(view, i);
+            const double square = 0.5 * w.amplitude * w.amplitude;
+            variance += square;
+            slopes += square * w.wavenumber * w.wavenumber;
+            longer += sqrt(GRAVITY * w.wavenumber) < 0.55 * peak_per_s ? square : 0;
+        }
+        printf("%6.0f m: height %.3f of the law's, longer waves %.1e, slopes %.2f of all\n",
+               fetch_m, sqrt(variance / variance_m2), longer / variance,
+               slopes / waves.mean_square_slope);
+        assert_true(fabs(sqrt(variance / variance_m2) - 1) < 0.05);
+        assert_true(fabs(view->height_part * waves_significant_height_m(&waves) / 4 -
+                         sqrt(variance)) < 1e-3 * sqrt(variance));
+        assert_true(longer < 1e-4 * variance);
+        assert_true(slopes < 1.3 * waves.mean_square_slope);
+    }
+    test_free(view);
+    waves_finish(&waves);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(waves_of_a_lake_are_those_of_its_fetch),
         cmocka_unit_test(full_grown_sea_is_as_high_as_its_integral),
         cmocka_unit_test(sea_grows_with_the_fetch_as_was_measured),
         cmocka_unit_test(a_sea_with_fetch_enough_is_full_grown),
