@@ -379,7 +379,7 @@ static trl_result develop(struct frame *frame, const struct frame_request *reque
 trl_result frame_draw(struct frame *frame, const struct frame_request *request)
 {
     const trl_view *view = request->view;
-    const struct camera_place place = frame_place(frame, view);
+    struct camera_place place = frame_place(frame, view);
     trl_result result = camera_check(frame->ctx, view, &place);
     if (result == TRL_OK) {
         result = gpu_make_current(frame->gpu);
@@ -390,13 +390,17 @@ trl_result frame_draw(struct frame *frame, const struct frame_request *request)
     if (result != TRL_OK) {
         return result;
     }
-    const struct camera camera =
-        camera_resolve(view, &place, (double)request->width / request->height);
+    const double aspect = (double)request->width / request->height;
+    struct camera camera = camera_resolve(view, &place, aspect);
     frame->is_drawn = false;
     frame_clock_start(&frame->clock);
     struct under_eye eye;
     const bool is_under =
         under_find(&frame->under, &frame->skies[frame->sky_model], &camera, view->time_s, &eye);
+    if (!is_under) {
+        place.water_depth_m = 0; // in a trough: what is drawn from the air is seen from above it
+        camera = camera_resolve(view, &place, aspect);
+    }
     result =
         is_under ? draw_under(frame, &camera, view, &eye) : draw_radiance(frame, &camera, view);
     if (result == TRL_OK) {

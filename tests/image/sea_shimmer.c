@@ -161,11 +161,28 @@ static void the_far_sea_does_not_shimmer(void **state)
     assert_true(by_place < 0.004);
 }
 
+// Between waves the air reaches below level water, from where no picture shows it.
+static void an_eye_in_a_trough_looks_from_level_water(void **state)
+{
+    const struct setup *setup = *state;
+    static float level[WIDTH * HEIGHT], below[WIDTH * HEIGHT];
+    trl_view view = find_view(0, -10, 40);
+    const struct ground *ground = &setup->renderer->frame.ground;
+    while (ground_wave_m(ground, view.latitude_rad, view.longitude_rad, view.time_s) > -0.3) {
+        view.time_s += 0.5;
+    }
+    draw(setup->renderer, &view, 1, level);
+    view.altitude_m = -0.2;
+    draw(setup->renderer, &view, 1, below);
+    assert_memory_equal(level, below, sizeof level);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_square_slope_is_kept_with_distance),
         cmocka_unit_test(the_far_sea_does_not_shimmer),
+        cmocka_unit_test(an_eye_in_a_trough_looks_from_level_water),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
