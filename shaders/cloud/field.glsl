@@ -108,11 +108,45 @@ CloudPlaces cloud_places(CloudLayer layer, vec3 place, float height)
     return places;
 }
 
+// The same along a straight line. Bends are so long that in a tile noise moves by a thirtieth of
+// one from between those of both ends, and in a third of one by a third of a texel.
+struct CloudLine {
+    CloudPlaces first, way;
+};
+
+CloudLine cloud_line(CloudLayer layer, CloudPlaces first, vec3 end, float height)
+{
+    CloudPlaces last = cloud_places(layer, end, height);
+    CloudLine line;
+    line.first = first;
+    line.way.noise = last.noise - first.noise;
+    line.way.finer = last.finer - first.finer;
+    // Fibres go once around; whole tiles do not count.
+    float around = 2.0 * SHARED_PI * layer.form.x;
+    float turned = floor(line.way.noise.z / max(around, 1.0e-3) + 0.5) * around;
+    line.way.noise.z -= turned;
+    line.way.finer.z -= turned * CLOUD_FIBRE_DETAIL_TURNS;
+    return line;
+}
+
+// `part` of the way from its first place.
+CloudPlaces cloud_on_line(CloudLine line, float part)
+{
+    CloudPlaces places;
+    places.noise = line.first.noise + line.way.noise * part;
+    places.finer = line.first.finer + line.way.finer * part;
+    return places;
+}
+
 float cloud_spread(float level)
 {
     float at = clamp(level, 0.0, u_cloud_volume.y);
-    int low = int(min(at, u_cloud_volume.y - 1.0));
-    return mix(u_cloud_spread[low], u_cloud_spread[low + 1], at - float(low));
+    vec4 low = max(1.0 - abs(at - vec4(0.0, 1.0, 2.0, 3.0)), 0.0);
+    vec4 high = max(1.0 - abs(at - vec4(4.0, 5.0, 6.0, 7.0)), 0.0);
+    return dot(low,
+               vec4(u_cloud_spread[0], u_cloud_spread[1], u_cloud_spread[2], u_cloud_spread[3])) +
+           dot(high,
+               vec4(u_cloud_spread[4], u_cloud_spread[5], u_cloud_spread[6], u_cloud_spread[7]));
 }
 
 float cloud_texel(CloudLayer layer)
@@ -178,50 +212,53 @@ float cloud_gathered(CloudLayer layer, vec3 place, float cover, CloudBox box)
     return cloud_gathered_cover(cover, noise, wide);
 }
 
-// Whether there may be cloud in the border around a place, or along a ray from it that is as long
-// and rises by `rise` heights of the layer. By one look.
-bool cloud_may_be_near(CloudLayer layer, vec3 place, float cover, CloudBox box, float rise)
+// x: the noise at a place, with the finer; y: its spread in the box.
+vec2 cloud_finer_noise(CloudLayer layer, CloudPlaces at, float noise, CloudBox box)
 {
-    // The height that has most of the cover.
-    float height = cloud_height(layer, place);
-    float best = clamp(layer.shell.z, min(height, height + rise), max(height, height + rise));
-    float around = textureLod(u_cloud_noise, cloud_places(layer, place, height).noise, box.level).y;
-    float most = cloud_joint_noise(around, 1.0, layer.grain.z) + box.spread;
-    return most > cloud_threshold(cover, cloud_height_signal(best, layer.shell.z));
-}
-
-// x: the noise at a place; y: its spread in the box.
-vec2 cloud_fine_noise(CloudLayer layer, vec3 place, float height, CloudBox box)
-{
-    CloudPlaces at = cloud_places(layer, place, height);
-    float noise = textureLod(u_cloud_noise, at.noise, box.level).x;
     float finer = textureLod(u_cloud_noise, at.finer, box.detail_level).x;
     float joint = cloud_joint_noise(noise, finer, layer.grain.z);
     return vec2(joint, cloud_joint_spread(box.spread, box.detail_spread, joint));
 }
 
 // The same by one look, for boxes so wide that the finer noise is the same in each.
-vec2 cloud_coarse_noise(CloudLayer layer, vec3 place, float height, CloudBox box)
+vec2 cloud_coarse_noise(CloudLayer layer, CloudPlaces at, CloudBox box)
 {
-    float noise = textureLod(u_cloud_noise, cloud_places(layer, place, height).noise, box.level).x;
+    float noise = textureLod(u_cloud_noise, at.noise, box.level).x;
     return vec2(noise, cloud_joint_spread(box.spread, layer.grain.z * u_cloud_spread[7], noise));
 }
 
-// Extinction, per m.
-float cloud_point(CloudLayer layer, vec3 place, float cover, CloudBox box)
+// What a place tells of itself and of what is around.
+struct CloudLook {
+    float extinction; // per m
+    float missing; // how much noise lacks to be cloud, whatever the finer one is; below 0: nothing
+    bool is_near;  // there may be cloud in the border around, or ahead on a ray
+};
+
+// `most` is the largest cover around; along the ray a border's length rises by `rise` heights of
+// the layer.
+CloudLook cloud_look(CloudLayer layer, CloudPlaces at, float height, float cover, float most,
+                     float rise, CloudBox box)
 {
-    float height = cloud_height(layer, place);
-    vec2 noise = cloud_fine_noise(layer, place, height, box);
-    float x = noise.x - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    vec2 coarse = textureLod(u_cloud_noise, at.noise, box.level).xy;
+    vec2 noise = cloud_finer_noise(layer, at, coarse.x, box);
+    float threshold = cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    float x = noise.x - threshold;
     float density = cloud_density(x, noise.y, layer.form.z);
-    return cloud_extinction(density, cloud_part(x, noise.y), layer.grain.y, box.way);
+    CloudLook look;
+    look.extinction = cloud_extinction(density, cloud_part(x, noise.y), layer.grain.y, box.way);
+    look.missing = threshold - cloud_joint_noise(coarse.x, 1.0, layer.grain.z) - box.spread;
+    // The height that has most of the cover.
+    float best = clamp(layer.shell.z, min(height, height + rise), max(height, height + rise));
+    look.is_near = cloud_joint_noise(coarse.y, 1.0, layer.grain.z) + box.spread >
+                   cloud_threshold(most, cloud_height_signal(best, layer.shell.z));
+    return look;
 }
 
 // By one look. x: mean extinction; y: where there is cloud in the box.
 vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
     float height = cloud_height(layer, place);
-    vec2 noise = cloud_coarse_noise(layer, place, height, box);
+    vec2 noise = cloud_coarse_noise(layer, cloud_places(layer, place, height), box);
     float x = noise.x - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
     float density = cloud_density(x, noise.y, layer.form.z);
     float part = cloud_part(x, noise.y);
@@ -230,10 +267,10 @@ vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
 }
 
 // The mean density in a box, by one look.
-float cloud_coarse_density(CloudLayer layer, vec3 place, float cover, CloudBox box)
+float cloud_coarse_density(CloudLayer layer, CloudPlaces at, float height, float cover,
+                           CloudBox box)
 {
-    float height = cloud_height(layer, place);
-    vec2 noise = cloud_coarse_noise(layer, place, height, box);
+    vec2 noise = cloud_coarse_noise(layer, at, box);
     float x = noise.x - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
     return cloud_density(x, noise.y, layer.form.z);
 }
@@ -259,6 +296,7 @@ const int CLOUD_SUN_PLACES = 6;
 const int CLOUD_SUN_FINE_PLACES = 3;
 const float CLOUD_SUN_REACH = 0.3125; // at most, in tiles
 const float CLOUD_SUN_BOX = 0.25;     // side of what is looked at, of the way it stands for
+const float CLOUD_SUN_LOWER = 0.15;   // with what whole levels let as much through as those between
 
 // How far toward the star there are looks: to the layer's top, m.
 float cloud_sun_reach(CloudLayer layer, float sun_mu, float height)
@@ -267,34 +305,29 @@ float cloud_sun_reach(CloudLayer layer, float sun_mu, float height)
     return min((1.0 - height) * thick / max(sun_mu, 0.02), CLOUD_SUN_REACH / layer.grain.x);
 }
 
-// `width` is that of a pixel there.
-float cloud_sun_depth(CloudLayer layer, vec3 place, float cover, float sun_mu, float height,
-                      float width)
+// `at` is where the noise is for the place, `width` that of a pixel there, `rest` as in
+// cloud_whole_box.
+float cloud_sun_depth(CloudLayer layer, vec3 place, CloudPlaces at, float cover, float sun_mu,
+                      float height, float width, float rest)
 {
     float reach = cloud_sun_reach(layer, sun_mu, height);
+    vec3 end = place + u_sun * reach;
+    CloudLine line = cloud_line(layer, at, end, cloud_height(layer, end));
     float sum = 0.0;
     float from = 0.0;
-    for (int i = 1; i <= CLOUD_SUN_FINE_PLACES; i++) {
+    for (int i = 1; i <= CLOUD_SUN_PLACES; i++) {
         float part = float(i) / float(CLOUD_SUN_PLACES);
         float to = reach * part * part;
-        vec3 there = place + u_sun * (0.5 * (from + to));
-        CloudBox box =
-            cloud_box(layer, cloud_level(layer, max(CLOUD_SUN_BOX * (to - from), width)));
-        float high = cloud_height(layer, there);
-        vec2 noise = cloud_fine_noise(layer, there, high, box);
-        float kept = exp(-0.5 * (from + to) / box.way);
-        sum += cloud_from_inside(layer, noise, cover, high, height, kept, box) * (to - from);
-        from = to;
-    }
-    for (int i = CLOUD_SUN_FINE_PLACES + 1; i <= CLOUD_SUN_PLACES; i++) {
-        float part = float(i) / float(CLOUD_SUN_PLACES);
-        float to = reach * part * part;
-        vec3 there = place + u_sun * (0.5 * (from + to));
-        CloudBox box =
-            cloud_box(layer, cloud_level(layer, max(CLOUD_SUN_BOX * (to - from), width)));
-        float high = cloud_height(layer, there);
-        vec2 noise = cloud_coarse_noise(layer, there, high, box);
-        float kept = exp(-0.5 * (from + to) / box.way);
+        float middle = 0.5 * (from + to);
+        float level = cloud_level(layer, max(CLOUD_SUN_BOX * (to - from), width));
+        CloudBox box = cloud_whole_box(layer, level, rest - CLOUD_SUN_LOWER);
+        CloudPlaces there = cloud_on_line(line, middle / max(reach, 1.0e-3));
+        float high = cloud_height(layer, place + u_sun * middle);
+        vec2 noise = cloud_coarse_noise(layer, there, box);
+        for (int once = 0; once < (i <= CLOUD_SUN_FINE_PLACES ? 1 : 0); once++) {
+            noise = cloud_finer_noise(layer, there, noise.x, box);
+        }
+        float kept = exp(-middle / box.way);
         sum += cloud_from_inside(layer, noise, cover, high, height, kept, box) * (to - from);
         from = to;
     }

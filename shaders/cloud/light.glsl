@@ -58,6 +58,7 @@ struct Lighting {
     vec3 up;
     float sun_mu, view_mu;
     float width; // of a pixel, m
+    float rest;  // see cloud_whole_box
 };
 
 // Optical depth toward the star beyond what cloud_sun_depth looks at: the map's.
@@ -72,22 +73,26 @@ float far_depth(CloudLayer layer, vec3 place, float sun_mu, float height)
     return texel.x * below * sqrt(below);
 }
 
-Shares shares_at(CloudLayer layer, vec3 place, float cover, Lighting lighting)
+// `at` is where the noise is for the place.
+Shares shares_at(CloudLayer layer, vec3 place, CloudPlaces at, float cover, Lighting lighting)
 {
     float height = cloud_height(layer, place);
-    float depth = cloud_sun_depth(layer, place, cover, lighting.sun_mu, height, lighting.width);
+    float depth = cloud_sun_depth(layer, place, at, cover, lighting.sun_mu, height, lighting.width,
+                                  lighting.rest);
     float far = far_depth(layer, place, lighting.sun_mu, height);
     // How dense it is above and below, each by one look.
     float thick_m = layer.shell.y - layer.shell.x;
     float side_m = cloud_side(thick_m, 1.0 / layer.grain.x);
     CloudBox box = cloud_whole_box(layer, cloud_level(layer, max(side_m, lighting.width)), 0.5);
-    vec3 rise = lighting.up * side_m;
+    float rise = side_m / thick_m;
+    CloudLine line = cloud_line(layer, at, place + lighting.up * side_m, height + rise);
     CloudAround around;
     around.side = CLOUD_DIFFUSE_DEPTH * layer.grain.y * side_m;
     around.whole = whole_depth(layer, cover);
     around.cover = cover;
-    around.above = cloud_coarse_density(layer, place + rise, cover, box);
-    around.below = cloud_coarse_density(layer, place - rise, cover, box);
+    around.above = cloud_coarse_density(layer, cloud_on_line(line, 1.0), height + rise, cover, box);
+    around.below =
+        cloud_coarse_density(layer, cloud_on_line(line, -1.0), height - rise, cover, box);
     Shares shares;
     shares.sun = lighting.phases.x * exp(-depth - far) +
                  cloud_several(around, lighting.phases.y, lighting.sun_mu, depth, far);

@@ -40,8 +40,9 @@ const int LEAST_STEPS = 4;
 const int COVER_STEPS = 6;        // between looks at the fields of clouds
 const float OPAQUE = 0.04;        // what is behind counts as what is before
 const float STEP_DEPTH = 0.5;     // of cloud that is lit as one place, where nothing is before it
-const float LONG_DEPTH = 0.3;     // at most, of a long step
-const float SHORT = 0.3;          // of a long step
+const float LONG_DEPTH = 0.3;     // at most, of a usual step
+const float SHORT = 0.3;          // of a usual step, the shortest
+const float STEEPEST = 10.0;      // texels in which noise hardly changes by more than 1
 const float LEAST_DEPTH = 1.0e-4; // of what counts as cloud
 const float LEAST_COVER = 1.0e-4;
 
@@ -116,6 +117,62 @@ Lights lights_by_clouds(CloudLayer layer, Lights lights, vec3 place, float sun_m
     return lights;
 }
 
+// A part of a slice, with the cover of a level at both its ends, and where the noise is.
+struct Span {
+    float from, to; // m
+    float first, last;
+    CloudLine line;
+};
+
+// None yet, up to where the first begins.
+Span first_span(CloudLayer layer, Ray ray, float to, float weather, CloudBox box)
+{
+    vec3 place = ray.direction * to;
+    Span span;
+    span.from = to;
+    span.to = to;
+    span.first = 0.0;
+    span.last = 0.0;
+    span.line.first = cloud_places(layer, place, cloud_height(layer, place));
+    span.line.way.noise = vec3(0.0);
+    span.line.way.finer = vec3(0.0);
+    for (int once = 0; once < (weather > LEAST_COVER ? 1 : 0); once++) {
+        span.last = cloud_gathered(layer, place, weather, box);
+    }
+    return span;
+}
+
+Span next_span(CloudLayer layer, Ray ray, Span before, float to, float weather, CloudBox box)
+{
+    vec3 place = ray.direction * to;
+    Span span;
+    span.from = before.to;
+    span.to = to;
+    span.first = before.last;
+    span.last = cloud_gathered(layer, place, weather, box);
+    span.line =
+        cloud_line(layer, cloud_on_line(before.line, 1.0), place, cloud_height(layer, place));
+    return span;
+}
+
+float part_at(Span span, float at)
+{
+    return (at - span.from) / max(span.to - span.from, 1.0e-3);
+}
+
+CloudPlaces places_at(Span span, float at)
+{
+    return cloud_on_line(span.line, part_at(span, at));
+}
+
+// Of a usual step, the part or multiple that is right beyond a place.
+float find_stride(CloudLook look, float usual, float thick, float texel)
+{
+    float air = 1.0 + min(STEEPEST * look.missing * texel / usual, 1.0);
+    float cloud = clamp(thick / max(look.extinction * usual, 1.0e-3), SHORT, 1.0);
+    return look.missing > 0.0 ? air : cloud;
+}
+
 void main()
 {
     vec2 pixel = min(2.0 * vec2(find_texel()), u_picture - 1.0) + 0.5;
@@ -184,69 +241,66 @@ void main()
                               min(4.0 * width, (far - near) / float(LEAST_STEPS)));
             CloudBox box =
                 cloud_whole_box(layer, cloud_level(layer, max(width, 0.25 * usual)), four.y);
-            // At least a step, so that where nothing can be skipped no more is looked at.
-            float border = max(layer.form.w, usual);
             lighting.up = up;
             lighting.sun_mu = sun_mu;
             lighting.view_mu = dot(up, ray.direction);
             lighting.width = width;
-            float rise = border * lighting.view_mu / (layer.shell.y - layer.shell.x);
+            lighting.rest = four.y;
+            float rise = layer.form.w * lighting.view_mu / (layer.shell.y - layer.shell.x);
             // Where steps are longer than what is in them varies, they would only make noise.
             float offset = 0.5 + (four.x - 0.5) * min(4.0 * texel / usual, 1.0);
             float s = weather > LEAST_COVER ? near : far;
             float stride = usual;
             bool is_inside = false;
+            bool is_near = true;
             float left_before = left;
             float moment = 0.0; // of s
             Shares sum = Shares(0.0, 0.0, 0.0);
+            Span span = first_span(layer, ray, s, weather, box);
             for (int i = 0; i < 2 * STEPS; i++) {
                 // Through air and cloud until there is enough to be lit. Where nothing is skipped
                 // by a branch, a loop of its own keeps light from being looked for in empty air.
                 float enough = STEP_DEPTH / left;
-                float shorter = min(SHORT / left, 1.0);
+                float thick = LONG_DEPTH / left; // of a step, at most
                 float depth = 0.0;
                 float depth_s = 0.0;
                 float cover = 0.0;
-                for (int m = 0; m < 2 * STEPS; m++) {
-                    if (s >= far || left < OPAQUE || depth > LEAST_DEPTH) {
+                for (int k = 0; k < 5 * STEPS; k++) {
+                    if (s >= far || left < OPAQUE || depth > enough ||
+                        (depth > LEAST_DEPTH && !is_near)) {
                         break;
                     }
-                    float from = s;
-                    float span = min(max(float(COVER_STEPS) * usual, 4.0 * border), far - s);
-                    float first = cloud_gathered(layer, ray.direction * from, weather, box);
-                    float last = cloud_gathered(layer, ray.direction * (from + span), weather, box);
-                    float most = max(first, last);
-                    for (int k = 0; k < 3 * COVER_STEPS; k++) {
-                        if (s >= from + span ||
-                            cloud_may_be_near(layer, ray.direction * s, most, box, rise)) {
-                            break;
-                        }
-                        s += border;
+                    for (int once = 0; once < (s >= span.to ? 1 : 0); once++) {
+                        // In no more than a tile are places on a line.
+                        float ahead = min(max(float(COVER_STEPS) * usual, 4.0 * layer.form.w),
+                                          max(1.0 / layer.grain.x, 2.0 * usual));
+                        span = next_span(layer, ray, span, min(s + ahead, far), weather, box);
                     }
-                    for (int k = 0; k < 3 * COVER_STEPS; k++) {
-                        float step_m = depth > enough ? 0.0 : min(stride, from + span - s);
-                        if (step_m <= 0.0) {
-                            break;
-                        }
-                        float at = s + offset * step_m;
-                        cover = mix(first, last, (at - from) / span);
-                        float own = cloud_point(layer, ray.direction * at, cover, box) * step_m;
-                        // A long step that meets cloud is made again in short ones.
-                        bool is_again = !is_inside && own > LONG_DEPTH;
-                        own = is_again ? 0.0 : own;
-                        step_m = is_again ? 0.0 : step_m;
-                        is_inside = is_again || own > LEAST_DEPTH;
-                        stride = is_inside ? usual * shorter : usual;
-                        depth += own;
-                        depth_s += own * at;
-                        s += step_m;
-                    }
+                    float step_m = min(stride, span.to - s);
+                    float at = s + offset * step_m;
+                    cover = mix(span.first, span.last, part_at(span, at));
+                    CloudLook look = cloud_look(layer, places_at(span, at),
+                                                cloud_height(layer, ray.direction * at), cover,
+                                                max(span.first, span.last), rise, box);
+                    is_near = look.is_near;
+                    float own = look.extinction * step_m;
+                    // A step that was too long for the cloud that it meets is made again.
+                    bool is_again = !is_inside && own > (stride > usual ? LEAST_DEPTH : thick);
+                    is_inside = own > LEAST_DEPTH;
+                    stride = usual * find_stride(look, usual, thick, texel);
+                    own = is_again ? 0.0 : own;
+                    step_m = is_near ? step_m : max(step_m, at - s + layer.form.w);
+                    step_m = is_again ? 0.0 : step_m;
+                    depth += own;
+                    depth_s += own * at;
+                    s += step_m;
                 }
                 if (depth <= LEAST_DEPTH) {
                     break;
                 }
                 float at = depth_s / depth;
-                Shares shares = shares_at(layer, ray.direction * at, cover, lighting);
+                Shares shares =
+                    shares_at(layer, ray.direction * at, places_at(span, at), cover, lighting);
                 float weight = left * (1.0 - exp(-depth));
                 sum.sun += shares.sun * weight;
                 sum.above += shares.above * weight;

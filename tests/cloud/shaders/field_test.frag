@@ -3,8 +3,8 @@
 // Extinction of the first layer at a place, with its height, and the optical depth toward the star.
 #include "cloud/weather.glsl"
 
-uniform vec4 u_place;  // relative to the eye, m; level
-uniform float u_width; // of a pixel that looks toward the star
+uniform vec4 u_place; // relative to the eye, m; level
+uniform vec2 u_width; // of a pixel that looks toward the star; how its levels are rounded
 
 out vec4 out_point;
 
@@ -14,8 +14,9 @@ void main()
     CloudBox box = cloud_box(layer, u_place.w);
     float cover = cloud_cover(layer, u_place.xyz, 1.0);
     cover = cloud_gathered(layer, u_place.xyz, cover, box);
-    float extinction = cloud_point(layer, u_place.xyz, cover, box);
     float height = cloud_height(layer, u_place.xyz);
-    float depth = cloud_sun_depth(layer, u_place.xyz, cover, 1.0, height, u_width);
+    CloudPlaces at = cloud_places(layer, u_place.xyz, height);
+    float extinction = cloud_look(layer, at, height, cover, cover, 0.0, box).extinction;
+    float depth = cloud_sun_depth(layer, u_place.xyz, at, cover, 1.0, height, u_width.x, u_width.y);
     out_point = vec4(extinction, height, depth, cover);
 }
