@@ -37,6 +37,8 @@ static const struct bench benches[] = {
      bench_run_stream, NULL},
     {"clouds", "clouds over a bare sphere: by cover, from the ground and from space, two sizes",
      bench_run_clouds, NULL},
+    {"cloud-frame", "terrain, sea, air and clouds: complete frames of each view, and in flight",
+     bench_run_cloud_frame, NULL},
     {"cloud-error", "drawn clouds against traced ones: a field at noon, sunset, against the sun",
      bench_run_cloud_error, NULL},
     {"schafhitzel-table1", "Earth and Mars, outside and inside, with air and without",

@@ -50,6 +50,7 @@ trl_result bench_run_sky_frame(const struct bench_job *job);
 trl_result bench_run_start(const struct bench_job *job);
 trl_result bench_run_clouds(const struct bench_job *job);
 trl_result bench_run_cloud_error(const struct bench_job *job);
+trl_result bench_run_cloud_frame(const struct bench_job *job);
 trl_result bench_run_stream(const struct bench_job *job);
 trl_result bench_run_elek_precompute(const struct bench_job *job);
 trl_result bench_run_elek_fps(const struct bench_job *job);

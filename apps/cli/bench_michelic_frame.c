@@ -20,9 +20,11 @@ static const double paper_ms[SHARES] = {2.96, 0.26, 10.98, 0};
 static const struct {
     const char *pass;
     enum share share;
-} passes[] = {{"tiles", TERRAIN},     {"vertices", TERRAIN}, {"mesh", TERRAIN}, {"shadow", TERRAIN},
-              {"surface", TERRAIN},   {"sky view", TERRAIN}, {"waves", OCEAN},  {"sky maps", AIR},
-              {"clouds' shade", AIR}, {"sky", AIR},          {"stars", AIR},    {"clouds", AIR}};
+} passes[] = {
+    {"tiles", TERRAIN},          {"vertices", TERRAIN},  {"mesh", TERRAIN},     {"shadow", TERRAIN},
+    {"surface", TERRAIN},        {"sky view", TERRAIN},  {"waves", OCEAN},      {"sky maps", AIR},
+    {"clouds' deck", AIR},       {"clouds' shade", AIR}, {"sky", AIR},          {"stars", AIR},
+    {"shadows in the air", AIR}, {"clouds", AIR},        {"clouds joined", AIR}};
 
 static const char *const own_views[] = {"range", "noon"};
 
