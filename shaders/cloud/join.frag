@@ -14,6 +14,7 @@ in vec2 v_uv;
 
 uniform sampler2D u_clouds;
 #ifndef FILTER
+uniform sampler2D u_hidden; // of squares of four pixels, see cloud/hidden.frag
 uniform sampler2D u_joined;
 uniform float u_sharp; // share of what was marched
 #endif
@@ -98,13 +99,14 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     out_clouds = vec4(0.0);
     // Loops, since branches save nothing.
-    for (int once = 0; once < (u_sharp < 1.0 ? 1 : 0); once++) {
+    bool is_cloudy = texelFetch(u_hidden, pixel / 4, 0).x > 0.0;
+    for (int once = 0; once < (is_cloudy && u_sharp < 1.0 ? 1 : 0); once++) {
         float alike;
         vec4 joined = join_four(u_joined, pixel, 1, false, alike);
         joined = alike < 0.9 ? joined : sharpen(joined, vec2(pixel));
         out_clouds += (1.0 - u_sharp) * joined;
     }
-    for (int once = 0; once < (u_sharp > 0.0 ? 1 : 0); once++) {
+    for (int once = 0; once < (is_cloudy && u_sharp > 0.0 ? 1 : 0); once++) {
         float alike;
         out_clouds += u_sharp * join_four(u_clouds, pixel, 0, false, alike);
     }

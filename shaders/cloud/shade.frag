@@ -3,11 +3,13 @@
 // What clouds leave of the star's light on the ground of every second pixel each way: 1 where there
 // is none. y: logarithm of its distance, for who looks between pixels. Of what
 // they take, droplets send most on downward; it counts here too, as if it still came from the star.
+// Ground that clouds hide from the eye counts as sky.
 // validate: SURFACE
 
 #include "cloud/weather.glsl"
 
-uniform vec2 u_picture; // pixels
+uniform vec2 u_picture;     // pixels
+uniform sampler2D u_hidden; // of squares of four of them
 
 #ifdef SURFACE
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
@@ -30,6 +32,7 @@ void main()
     bool is_ground = ray.meets_ground;
     vec3 place = ray.direction * ray.ground_m;
 #endif
+    is_ground = is_ground && texelFetch(u_hidden, ivec2(pixel) / 4, 0).x < 1.0;
     vec3 up = normalize(u_eye_up * u_eye.x + place);
     float sun_mu = max(dot(up, u_sun), 0.03);
     float altitude = cloud_altitude(place);

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
 // How near the nearest land of a square of pixels is: the greatest 1 / distance along the view's
-// axis in it, 0 where there is none. Water hides no ray that rises from it.
+// axis in it, 0 where there is none. Water hides no ray that rises from it; land that clouds hide
+// is not drawn.
 // validate:
 // validate: SURFACE
 
 #ifdef SURFACE
-uniform sampler2D u_position; // as in sky/ground.glsl
-uniform sampler2D u_albedo;   // a: part that is open water
+uniform sampler2D u_position;    // as in sky/ground.glsl
+uniform sampler2D u_albedo;      // a: part that is open water
+uniform highp sampler2D u_kinds; // of terrain/kinds.frag
 uniform vec3 u_forward;
 #else
 uniform sampler2D u_nearest; // what this file has drawn, of smaller squares
@@ -21,7 +23,7 @@ float nearness_at(ivec2 place)
 #ifdef SURFACE
     vec4 ground = texelFetch(u_position, place, 0);
     float water = texelFetch(u_albedo, place, 0).a;
-    bool is_land = ground.w > -1.0e8 && water < 0.5;
+    bool is_land = texelFetch(u_kinds, place, 0).x > 0.5 && water < 0.5;
     return is_land ? 1.0 / max(dot(ground.xyz, u_forward), 1.0e-3) : 0.0;
 #else
     return texelFetch(u_nearest, place, 0).x;

@@ -72,6 +72,7 @@ static void finish_programs(struct cloud_march *m)
     gpu_program_finish(&m->march);
     gpu_program_finish(&m->filter);
     gpu_program_finish(&m->join);
+    gpu_program_finish(&m->find_hidden);
     gpu_program_finish(&m->shade);
     gpu_program_finish(&m->history.gather);
     m->is_made = false;
@@ -85,8 +86,10 @@ static void finish_targets(struct cloud_march *m)
     }
     cloud_history_forget(&m->history);
     gpu_target_finish(&m->joined_target);
+    gpu_target_finish(&m->hidden_target);
     gpu_target_finish(&m->shades_target);
     gpu_texture_finish(&m->joined);
+    gpu_texture_finish(&m->hidden);
     gpu_texture_finish(&m->shades);
     m->width = m->height = 0;
 }
@@ -124,6 +127,7 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", view->air->peaked_count);
     const char *const surface[] = {is_bare ? NULL : "SURFACE", NULL};
     const char *const filter[] = {"FILTER", is_bare ? NULL : "SURFACE", NULL};
+    const char *const nothing[] = {NULL};
     const char *march[4] = {peaked};
     size_t count = 1;
     if (!is_bare) {
@@ -141,6 +145,9 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     }
     if (result == TRL_OK) {
         result = make_program(m->gpu, "cloud/shade.frag", surface, &m->shade);
+    }
+    if (result == TRL_OK) {
+        result = make_program(m->gpu, "cloud/hidden.frag", nothing, &m->find_hidden);
     }
     if (result == TRL_OK) {
         result = make_program(m->gpu, "cloud/gather.frag", surface, &m->history.gather);
@@ -184,6 +191,14 @@ static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *pi
         desc.filter = GPU_FILTER_LINEAR; // join.frag looks between its texels
         result = make_target(m, &desc, &m->joined, &m->joined_target);
     }
+    desc.label = "hidden by clouds";
+    desc.filter = GPU_FILTER_NEAREST;
+    desc.format = GPU_FORMAT_R8;
+    desc.width = (picture->width + GPU_HIDE_SQUARE - 1) / GPU_HIDE_SQUARE;
+    desc.height = (picture->height + GPU_HIDE_SQUARE - 1) / GPU_HIDE_SQUARE;
+    if (result == TRL_OK) {
+        result = make_target(m, &desc, &m->hidden, &m->hidden_target);
+    }
     if (result != TRL_OK) {
         finish_targets(m);
         return result;
@@ -208,10 +223,13 @@ static trl_result prepare(struct cloud_march *m, const struct cloud_view *view)
     return result == TRL_OK ? fit_targets(m, view->target) : result;
 }
 
-static trl_result draw_deck(struct cloud_march *march, const struct cloud_view *view)
+trl_result cloud_march_deck(struct cloud_march *march, const struct cloud_view *view)
 {
     struct cloud_deck *deck = &march->deck;
-    const trl_result result = cloud_deck_begin(deck, march->field, view->camera);
+    trl_result result = prepare(march, view);
+    if (result == TRL_OK) {
+        result = cloud_deck_begin(deck, march->field, view->camera);
+    }
     if (result != TRL_OK) {
         return result;
     }
@@ -222,17 +240,11 @@ static trl_result draw_deck(struct cloud_march *march, const struct cloud_view *
 
 trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view)
 {
-    trl_result result = prepare(march, view);
-    if (result == TRL_OK) {
-        result = draw_deck(march, view);
-    }
-    if (result != TRL_OK) {
-        return result;
-    }
     const struct gpu_pass pass = {.target = &march->shades_target};
     view->air->bind(view->air->self, false, &march->shade);
     cloud_march_set_field(march, view->camera, &march->shade);
     set_view(view, &march->shade);
+    gpu_program_set_texture(&march->shade, "u_hidden", &march->hidden);
     gpu_pass_begin(march->gpu, &pass);
     return gpu_draw_fullscreen(&march->shade, "clouds");
 }
@@ -252,7 +264,7 @@ static float find_sharpness(const struct cloud_march *march, const struct cloud_
     return (float)fmax(0, fmin(1, (log(fmax(texels, 1)) / log(2) - 4) / 2));
 }
 
-static trl_result join(struct cloud_march *march, const struct cloud_view *view)
+trl_result cloud_march_join(struct cloud_march *march, const struct cloud_view *view)
 {
     const struct gpu_pass filter = {.target = &march->joined_target};
     set_view(view, &march->filter);
@@ -267,6 +279,7 @@ static trl_result join(struct cloud_march *march, const struct cloud_view *view)
     set_view(view, &march->join);
     gpu_program_set_texture(&march->join, "u_clouds", &march->clouds[march->now]);
     gpu_program_set_texture(&march->join, "u_joined", &march->joined);
+    gpu_program_set_texture(&march->join, "u_hidden", &march->hidden);
     gpu_program_set_float(&march->join, "u_sharp", find_sharpness(march, view));
     gpu_pass_begin(march->gpu, &join);
     return gpu_draw_fullscreen(&march->join, "clouds");
@@ -306,12 +319,17 @@ static trl_result accumulate(struct cloud_march *march, const struct cloud_view 
     return gpu_draw_fullscreen(&history->gather, "clouds");
 }
 
+static trl_result find_hidden(struct cloud_march *march)
+{
+    const struct gpu_pass pass = {.target = &march->hidden_target};
+    gpu_program_set_texture(&march->find_hidden, "u_clouds", &march->clouds[march->now]);
+    gpu_pass_begin(march->gpu, &pass);
+    return gpu_draw_fullscreen(&march->find_hidden, "clouds");
+}
+
 trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *view)
 {
-    trl_result result = prepare(march, view);
-    if (result != TRL_OK) {
-        return result;
-    }
+    trl_result result = TRL_OK;
     const struct cloud_moment moment = {view->camera, view->time_s,
                                         cloud_field_far_m(march->field, view->camera->position_m)};
     if (view->accumulates && cloud_history_holds(&march->history, &moment)) {
@@ -326,5 +344,5 @@ trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *
         return result;
     }
     cloud_history_keep(&march->history, &moment);
-    return join(march, view);
+    return find_hidden(march);
 }

@@ -2,21 +2,24 @@
 // SPDX-License-Identifier: MIT
 #ifndef CLOUD_MARCH_H
 #define CLOUD_MARCH_H
-// Draws clouds into a picture that has all else, and their shade before it. docs/physics.md,
-// section 29.
+// Draws clouds: first, since what they hide need not be drawn; their shade; and, into a picture
+// that has all else, themselves. docs/physics.md, section 29.
 //
 //     in   position   RGBA32F  of the ground (frame/ground.h), or none for a bare sphere
 //          radiance   RGBA32F  as the sky and what is beyond the air left it
-//     out  shade      RG32F    of every second pixel: what clouds leave of the star's light on its
-//                              ground, and the logarithm of its distance
-//          clouds     RGBA32F  of every second pixel: light, 1 - transmittance; scratch
+//     out  clouds     RGBA32F  of every second pixel: light, 1 - transmittance; scratch
 //          joined     RGBA32F  of each four of those; scratch
+//          hidden     R8       of squares of pixels (gpu/hide.h): what clouds hide of
+//                              it, see cloud/hidden.frag
+//          shade      RG32F    of every second pixel: what clouds leave of the star's light on its
+//                              ground, and the logarithm of its distance
 //          radiance            with clouds
 
 #include "base/camera.h"
 #include "cloud/deck.h"
 #include "cloud/field.h"
 #include "cloud/history.h"
+#include "gpu/hide.h"
 #include "gpu/pass.h"
 
 // The air of the model of the sky: what programs that include sky/spectral/air.glsl need.
@@ -36,10 +39,11 @@ struct cloud_march {
     bool is_made; // with the programs for:
     bool is_bare, has_march;
     int peaked_count;
-    struct gpu_program march, filter, join, shade;
-    uint32_t width, height;                       // of the last picture
-    struct gpu_texture clouds[2], joined, shades; // of clouds this frame's and the one before
-    struct gpu_target clouds_target[2], joined_target, shades_target;
+    struct gpu_program march, filter, join, find_hidden, shade;
+    uint32_t width, height;       // of the last picture
+    struct gpu_texture clouds[2]; // this frame's and the one before
+    struct gpu_texture joined, hidden, shades;
+    struct gpu_target clouds_target[2], joined_target, hidden_target, shades_target;
     int now; // which of both is this frame's
     struct cloud_history history;
     struct cloud_deck deck;
@@ -64,9 +68,13 @@ struct cloud_view {
     bool accumulates; // marches a quarter, with the rest from frames before where it was seen
 };
 
-// Before the sky: fills `shades` and the map of `deck`.
-TRL_MUST_USE trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view);
-// After it.
+// A frame calls these in this order. The map of `deck`, which the air's own shadows ask for:
+TRL_MUST_USE trl_result cloud_march_deck(struct cloud_march *march, const struct cloud_view *view);
+// `clouds` and `hidden`;
 TRL_MUST_USE trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *view);
+// `shades`, before ground is lit;
+TRL_MUST_USE trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view);
+// and after all that is behind, clouds into the picture.
+TRL_MUST_USE trl_result cloud_march_join(struct cloud_march *march, const struct cloud_view *view);
 
 #endif // CLOUD_MARCH_H

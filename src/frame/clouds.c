@@ -100,12 +100,24 @@ static trl_result draw(struct clouds *clouds, const struct sky *sky, const struc
     return part(&clouds->march, &cloud_view);
 }
 
+trl_result clouds_find_deck(struct clouds *clouds, const struct sky *sky,
+                            const struct sky_view *view)
+{
+    return draw(clouds, sky, view, cloud_march_deck);
+}
+
+trl_result clouds_draw(struct clouds *clouds, const struct sky *sky, struct sky_view *view)
+{
+    view->hidden = &clouds->march.hidden;
+    return draw(clouds, sky, view, cloud_march_draw);
+}
+
 trl_result clouds_shade(struct clouds *clouds, const struct sky *sky, const struct sky_view *view)
 {
     return draw(clouds, sky, view, cloud_march_shade);
 }
 
-trl_result clouds_draw(struct clouds *clouds, const struct sky *sky, const struct sky_view *view)
+trl_result clouds_join(struct clouds *clouds, const struct sky *sky, const struct sky_view *view)
 {
-    return draw(clouds, sky, view, cloud_march_draw);
+    return draw(clouds, sky, view, cloud_march_join);
 }

@@ -32,11 +32,14 @@ bool clouds_are_drawn(const struct clouds *clouds, const struct sky *sky);
 // Before the model prepares: what the view has of clouds.
 void clouds_announce(struct clouds *clouds, const struct sky *sky, double time_s,
                      struct sky_view *view);
-// Before the sky is drawn.
+// As those of cloud/march.h, in the same order; what they hide is then in the view.
+TRL_MUST_USE trl_result clouds_find_deck(struct clouds *clouds, const struct sky *sky,
+                                         const struct sky_view *view);
+TRL_MUST_USE trl_result clouds_draw(struct clouds *clouds, const struct sky *sky,
+                                    struct sky_view *view);
 TRL_MUST_USE trl_result clouds_shade(struct clouds *clouds, const struct sky *sky,
                                      const struct sky_view *view);
-// After all that is behind.
-TRL_MUST_USE trl_result clouds_draw(struct clouds *clouds, const struct sky *sky,
+TRL_MUST_USE trl_result clouds_join(struct clouds *clouds, const struct sky *sky,
                                     const struct sky_view *view);
 
 #endif // FRAME_CLOUDS_H

@@ -298,6 +298,26 @@ static trl_result draw_under(struct frame *frame, const struct camera *camera,
     return result;
 }
 
+// Before all that they may hide.
+static trl_result draw_clouds(struct frame *frame, struct sky *sky, struct sky_view *view)
+{
+    trl_result result = TRL_OK;
+    const bool is_cloudy = clouds_are_drawn(&frame->clouds, sky);
+    if (is_cloudy) {
+        frame_clock_part(&frame->clock, "clouds' deck");
+        result = clouds_find_deck(&frame->clouds, sky, view);
+    }
+    if (result == TRL_OK) {
+        frame_clock_part(&frame->clock, "shadows in the air");
+        result = sky_shade(sky, view);
+    }
+    if (result == TRL_OK && is_cloudy) {
+        frame_clock_part(&frame->clock, "clouds");
+        result = clouds_draw(&frame->clouds, sky, view);
+    }
+    return result;
+}
+
 static trl_result draw_radiance(struct frame *frame, const struct camera *camera,
                                 const trl_view *shown)
 {
@@ -313,7 +333,7 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
                                          .time_s = shown->time_s};
     trl_result result = frame_sea_light(&frame->sea);
     if (result == TRL_OK) {
-        result = ground_draw(&frame->ground, &shading, &extras, &frame->clock);
+        result = ground_draw_shape(&frame->ground, &shading, &extras, &frame->clock);
     }
     struct sky_view view = {.camera = camera,
                             .highest_m = highest_m,
@@ -330,6 +350,12 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
         frame_clock_part(&frame->clock, "sky maps");
         result = sky_prepare(sky, &view);
     }
+    if (result == TRL_OK) {
+        result = draw_clouds(frame, sky, &view);
+    }
+    if (result == TRL_OK) {
+        result = ground_draw_look(&frame->ground, &shading, &extras, view.hidden, &frame->clock);
+    }
     if (result == TRL_OK && clouds_are_drawn(&frame->clouds, sky)) {
         frame_clock_part(&frame->clock, "clouds' shade");
         result = clouds_shade(&frame->clouds, sky, &view);
@@ -343,8 +369,8 @@ static trl_result draw_radiance(struct frame *frame, const struct camera *camera
         result = space_draw(&frame->space, &view, shown->sidereal_rad);
     }
     if (result == TRL_OK && clouds_are_drawn(&frame->clouds, sky)) {
-        frame_clock_part(&frame->clock, "clouds");
-        result = clouds_draw(&frame->clouds, sky, &view);
+        frame_clock_part(&frame->clock, "clouds joined");
+        result = clouds_join(&frame->clouds, sky, &view);
     }
     if (result == TRL_OK) {
         const struct edges_source source = {.view = &view,

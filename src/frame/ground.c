@@ -183,6 +183,9 @@ static trl_result make_passes(struct ground *ground, double sun_angular_radius_r
         result = terrain_kinds_init(ground->gpu, &ground->kinds);
     }
     if (result == TRL_OK) {
+        result = gpu_hide_init(ground->gpu, &ground->hide);
+    }
+    if (result == TRL_OK) {
         result = terrain_sky_view_init(&ground->shadow, &ground->sky_view);
     }
     return result;
@@ -250,6 +253,7 @@ void ground_finish(struct ground *ground)
     terrain_sky_view_finish(&ground->sky_view);
     terrain_compose_finish(&ground->compose);
     terrain_kinds_finish(&ground->kinds);
+    gpu_hide_finish(&ground->hide);
     terrain_shadow_finish(&ground->shadow);
     for (int i = 0; i < MESHER_MAX_KINDS; i++) {
         mesher_destroy(&ground->meshers[i]);
@@ -366,8 +370,11 @@ static trl_result draw_sea_mesh(struct ground *ground, const struct camera *came
     return sea_mesh_draw(&ground->sea_mesh, &inputs);
 }
 
+// The depth of the sky in kinds, over which no pass draws.
+static const float HIDDEN_DEPTH = 0;
+
 static trl_result draw_surface(struct ground *ground, const struct camera *camera,
-                               const struct ground_extras *extras)
+                               const struct ground_extras *extras, const struct gpu_texture *hidden)
 {
     struct terrain_compose_inputs inputs = {.camera = camera,
                                             .position = find_position(ground),
@@ -375,6 +382,9 @@ static trl_result draw_surface(struct ground *ground, const struct camera *camer
                                             .region_m = ground->region_m};
     memcpy(inputs.sea_albedo, extras->sea_albedo, sizeof inputs.sea_albedo);
     trl_result result = terrain_kinds_draw(&ground->kinds, inputs.position, &ground->kinds_target);
+    if (result == TRL_OK) {
+        result = gpu_hide_draw(&ground->hide, hidden, HIDDEN_DEPTH, &ground->kinds_target);
+    }
     if (result == TRL_OK) {
         result = terrain_compose_draw(&ground->compose, &inputs, &ground->surface_target);
     }
@@ -399,8 +409,8 @@ static trl_result draw_facets(struct ground *ground, const struct camera *camera
     return result;
 }
 
-trl_result ground_draw(struct ground *ground, const struct camera *camera,
-                       const struct ground_extras *extras, struct frame_clock *clock)
+trl_result ground_draw_shape(struct ground *ground, const struct camera *camera,
+                             const struct ground_extras *extras, struct frame_clock *clock)
 {
     if (ground->is_bare) {
         return TRL_OK;
@@ -426,10 +436,18 @@ trl_result ground_draw(struct ground *ground, const struct camera *camera,
         frame_clock_part(clock, "sea mesh");
         result = draw_sea_mesh(ground, camera, extras);
     }
-    if (result == TRL_OK) {
-        frame_clock_part(clock, "surface");
-        result = draw_surface(ground, camera, extras);
+    return result;
+}
+
+trl_result ground_draw_look(struct ground *ground, const struct camera *camera,
+                            const struct ground_extras *extras, const struct gpu_texture *hidden,
+                            struct frame_clock *clock)
+{
+    if (ground->is_bare) {
+        return TRL_OK;
     }
+    frame_clock_part(clock, "surface");
+    trl_result result = draw_surface(ground, camera, extras, hidden);
     if (result == TRL_OK && ground->has_waves) {
         frame_clock_part(clock, "waves");
         result = draw_facets(ground, camera, extras);
@@ -451,6 +469,7 @@ struct sky_surface ground_surface(const struct ground *ground)
                                 .normal = &ground->normal,
                                 .lights = &ground->lights,
                                 .region = &ground->region,
+                                .kinds = &ground->depth,
                                 .facets = ground->has_waves ? &ground->facets.texture : NULL,
                                 .has_water = ground->has_waves ? &ground->kinds.has_water : NULL,
                                 .lights_cd_m2 = ground->lights_cd_m2};

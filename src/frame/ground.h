@@ -8,7 +8,7 @@
 //
 // - position, RGBA32F: xyz relative to the camera, planet axes, m; w altitude, m, -1e9 where is no
 //   ground
-// - depth, DEPTH32F: reversed
+// - depth, DEPTH32F: reversed, then kinds (terrain/kinds.h)
 // - albedo, RGBA8: square root of the linear albedo; a: water
 // - normal, RGBA16F: xyz planet axes; w: how much of the sun is not hidden by terrain
 // - lights, RGBA8: square root of artificial light at night; a: of water its depth, of land the
@@ -18,6 +18,7 @@
 
 #include "base/camera.h"
 #include "frame/clock.h"
+#include "gpu/hide.h"
 #include "gpu/target.h"
 #include "ocean/facets.h"
 #include "ocean/sea_mesh.h"
@@ -42,6 +43,7 @@ struct ground {
                                               // bare, as the passes below
     struct terrain_shadow shadow;
     struct terrain_kinds kinds;
+    struct gpu_hide hide;
     struct terrain_compose compose;
     struct waves waves;
     struct waves_view *stand; // owned; room for ground_wave_m
@@ -104,13 +106,20 @@ struct ground_extras {
     const float *sea_albedo; // linear sRGB, of the ocean in light of an even sky
     double time_s;           // of the ocean's waves
 };
-TRL_MUST_USE trl_result ground_draw(struct ground *ground, const struct camera *camera,
-                                    const struct ground_extras *extras, struct frame_clock *clock);
+// Where the ground is: position. What follows needs the other as well.
+TRL_MUST_USE trl_result ground_draw_shape(struct ground *ground, const struct camera *camera,
+                                          const struct ground_extras *extras,
+                                          struct frame_clock *clock);
+// How it looks, where it is not hidden (gpu/hide.h; NULL: nothing is).
+TRL_MUST_USE trl_result ground_draw_look(struct ground *ground, const struct camera *camera,
+                                         const struct ground_extras *extras,
+                                         const struct gpu_texture *hidden,
+                                         struct frame_clock *clock);
 
-// What the sky pass lights: all NULL for a bare sphere.
+// What the sky pass lights, after ground_draw_shape: all NULL for a bare sphere.
 struct sky_surface ground_surface(const struct ground *ground);
 
-// What shades the air, after ground_draw.
+// What shades the air, after ground_draw_shape.
 struct sky_shadow ground_shadow(const struct ground *ground);
 
 double ground_altitude_m(const struct ground *ground, double latitude_rad, double longitude_rad);

@@ -22,6 +22,9 @@ trl_result sky_pixels_init(const struct sky_desc *desc, double disc_rad, struct 
         program.define_count = out->has_sea ? 2 : 1;
         result = gpu_program_init(desc->gpu, &program, &out->sort_surface);
     }
+    if (result == TRL_OK) {
+        result = gpu_hide_init(desc->gpu, &out->hide);
+    }
     if (result != TRL_OK) {
         sky_pixels_finish(out);
     }
@@ -32,6 +35,7 @@ void sky_pixels_finish(struct sky_pixels *pixels)
 {
     gpu_program_finish(&pixels->sort_bare);
     gpu_program_finish(&pixels->sort_surface);
+    gpu_hide_finish(&pixels->hide);
     *pixels = (struct sky_pixels){0};
 }
 
@@ -193,6 +197,9 @@ struct gpu_rect sky_find_disc(const struct camera *camera, const struct gpu_targ
                              (uint32_t)ceil(high) - (uint32_t)low};
 }
 
+// Of sort.frag, between those at which sky_pixels_draw draws.
+static const float HIDDEN_DEPTH = 0.8125f;
+
 trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct sky_view *view)
 {
     const bool is_bare = sky_view_is_bare(view);
@@ -208,7 +215,9 @@ trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct sky_view *vie
     }
     gpu_program_set_float(program, "u_depth", 0.5f);
     gpu_pass_begin(pixels->gpu, &pass);
-    return gpu_draw_fullscreen(program, "sky");
+    const trl_result result = gpu_draw_fullscreen(program, "sky");
+    return result == TRL_OK ? gpu_hide_draw(&pixels->hide, view->hidden, HIDDEN_DEPTH, view->target)
+                            : result;
 }
 
 trl_result sky_pixels_draw(const struct sky_pixels *pixels, struct gpu_program *program,
@@ -234,10 +243,11 @@ trl_result sky_pixels_draw(const struct sky_pixels *pixels, struct gpu_program *
             set_surface(program, &view->surface);
         }
     }
-    // Between the depths of sort.frag: air is at 0, space at 1/2, ground above 7/8, water at 1.
+    // Between the depths of sort.frag: air is at 0, space at 1/2, what is hidden at 13/16, ground
+    // at 7/8 or above, water at 1.
     static const float DEPTHS[] = {[SKY_KIND_AIR] = 0.25f,
                                    [SKY_KIND_STAR] = 0.75f,
-                                   [SKY_KIND_GROUND] = 0.75f,
+                                   [SKY_KIND_GROUND] = 0.84375f,
                                    [SKY_KIND_SEA] = 0.9375f};
     gpu_program_set_float(program, "u_depth", DEPTHS[kind]);
     const struct gpu_condition *condition = kind == SKY_KIND_SEA ? view->surface.has_water : NULL;

@@ -7,6 +7,7 @@
 // branch. Programs have the vertex shader lib/layer.vert, include sky/ray.glsl, and for the ground
 // sky/ground.glsl (with SURFACE where there are surface buffers).
 
+#include "gpu/hide.h"
 #include "scatter/bands.h"
 #include "sky/sky.h"
 
@@ -24,6 +25,7 @@ struct sky_pixels {
     double shown_rad; // up to where its pixels show more than air: the disc, or a corona
     bool has_sea;
     struct gpu_program sort_bare, sort_surface;
+    struct gpu_hide hide;
 };
 
 TRL_MUST_USE trl_result sky_pixels_init(const struct sky_desc *desc, double disc_rad,
@@ -47,7 +49,7 @@ void sky_pixels_set_view(const struct sky_pixels *pixels, struct gpu_program *pr
 // The uniforms of deck.glsl, where there are clouds.
 void sky_pixels_set_deck(struct gpu_program *program, const struct sky_view *view);
 
-// First of all: clears the target and marks each pixel's kind.
+// First of all: clears the target and marks each pixel's kind; what is hidden is of none.
 TRL_MUST_USE trl_result sky_pixels_sort(struct sky_pixels *pixels, const struct sky_view *view);
 
 // Draws the pixels of one kind. Uniforms of ray.glsl and textures of ground.glsl are set here; the

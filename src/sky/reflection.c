@@ -176,6 +176,7 @@ static trl_result draw_nearest(struct reflection *r, const struct sky_view *view
 {
     struct gpu_rect rect = {0, 0, r->nearest.width, r->nearest.height};
     gpu_program_set_texture(&r->from_surface, "u_position", view->surface.position);
+    gpu_program_set_texture(&r->from_surface, "u_kinds", view->surface.kinds);
     gpu_program_set_texture(&r->from_surface, "u_albedo", view->surface.albedo);
     sky_set_vec3(&r->from_surface, "u_forward", view->camera->forward);
     trl_result result = draw_squares(&r->from_surface, &r->nearest_target, rect, SQUARE);

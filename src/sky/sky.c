@@ -40,6 +40,11 @@ trl_result sky_prepare(struct sky *sky, const struct sky_view *view)
     return sky->model->prepare(sky->self, view);
 }
 
+trl_result sky_shade(struct sky *sky, const struct sky_view *view)
+{
+    return sky->model->shade ? sky->model->shade(sky->self, view) : TRL_OK;
+}
+
 trl_result sky_draw(struct sky *sky, const struct sky_view *view)
 {
     return sky->model->draw(sky->self, view);

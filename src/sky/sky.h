@@ -45,6 +45,7 @@ struct sky_moon {
 struct sky_surface {
     const struct gpu_texture *position; // NULL: bare sphere, and the others too
     const struct gpu_texture *albedo, *normal, *lights, *region; // see frame/ground.h
+    const struct gpu_texture *kinds;                             // DEPTH32F, see terrain/kinds.h
     const struct gpu_texture *facets;      // of open water, as of ocean/facets.h; NULL: no ocean
     const struct gpu_condition *has_water; // some pixel has; NULL: not known
     double lights_cd_m2;                   // luminance of white lights
@@ -76,6 +77,7 @@ struct sky_view {
     const struct gpu_texture *cloud_deck;  // as cloud/deck.h makes it, where there is cloud_shade
     const float *cloud_deck_place;         // and its u_deck_map
     double cloud_top_m;                    // altitude of the highest
+    const struct gpu_texture *hidden;      // by clouds, as gpu/hide.h has it; NULL: nothing is
     struct sky_shadow shadow;              // of the body that is main, else of the star
     struct sky_moon moon;
     bool is_added; // to what the target holds
@@ -105,7 +107,9 @@ struct sky_model {
     void (*destroy)(void **self);
     // Makes the maps of this eye and star; nothing when neither has changed.
     trl_result (*prepare)(void *self, const struct sky_view *view);
-    // Draws all pixels of the target.
+    // Between both, where there is get_air: what terrain and clouds shade of it. NULL: nothing.
+    trl_result (*shade)(void *self, const struct sky_view *view);
+    // Draws all pixels of the target that are not hidden.
     trl_result (*draw)(void *self, const struct sky_view *view);
     // Goes over to another medium of the same planet and star, which need live only until the call
     // returns, while draws go on with the old one. NULL: the sky is made anew instead.
@@ -114,7 +118,7 @@ struct sky_model {
     bool (*is_settled)(const void *self);
     // The body whose light counts in this view. NULL: the model knows no light but the star's.
     struct sky_moon (*find_moon)(const void *self, const struct camera *camera, double highest_m);
-    // NULL: the model has no such air. For a view that was drawn.
+    // NULL: the model has no such air. For a view that was prepared, and of which it was shaded.
     struct sky_air (*get_air)(const void *self, const struct sky_view *view);
     // What it looks at in the surface; what no model looks at need not be drawn.
     bool reads_sky_view; // alpha of region, and of lights where there is no water
@@ -136,6 +140,7 @@ struct sky {
 TRL_MUST_USE trl_result sky_init(const struct sky_desc *desc, trl_sky_model model, struct sky *out);
 void sky_finish(struct sky *sky);
 TRL_MUST_USE trl_result sky_prepare(struct sky *sky, const struct sky_view *view);
+TRL_MUST_USE trl_result sky_shade(struct sky *sky, const struct sky_view *view);
 TRL_MUST_USE trl_result sky_draw(struct sky *sky, const struct sky_view *view);
 // The desc as for sky_init, with the new medium.
 TRL_MUST_USE trl_result sky_change(struct sky *sky, const struct sky_desc *desc);

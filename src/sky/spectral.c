@@ -301,14 +301,18 @@ static void set_sources(const void *self, struct gpu_program *program)
     }
 }
 
-static trl_result draw_shares(struct spectral *sky, const struct sky_view *view)
+static trl_result spectral_shade(void *self, const struct sky_view *view)
 {
-    const struct sky_march_source source = {
-        .pixels = &sky->pixels,
-        .peaked_count = sky->maps.atmosphere->peaked.count,
-        .set_maps = set_sources,
-        .self = sky,
-        .eclipse = find_shades(sky, view).has_eclipse ? &sky->eclipse : NULL};
+    struct spectral *sky = self;
+    const struct shades shades = find_shades(sky, view);
+    if (!shades.has_march) {
+        return TRL_OK;
+    }
+    const struct sky_march_source source = {.pixels = &sky->pixels,
+                                            .peaked_count = sky->maps.atmosphere->peaked.count,
+                                            .set_maps = set_sources,
+                                            .self = sky,
+                                            .eclipse = shades.has_eclipse ? &sky->eclipse : NULL};
     return sky_march_draw(&sky->march, &source, view);
 }
 
@@ -373,10 +377,7 @@ static trl_result spectral_draw(void *self, const struct sky_view *view)
         sky_view_is_bare(view) ? &programs->ground_bare : &programs->ground_surface;
     const bool has_corona = shades.has_eclipse && sky->eclipse.corona > 0;
     sky->pixels.shown_rad = sky->pixels.disc_rad * (has_corona ? CORONA_RADII : 1);
-    trl_result result = shades.has_march ? draw_shares(sky, view) : TRL_OK;
-    if (result == TRL_OK) {
-        result = sky_pixels_sort(&sky->pixels, view);
-    }
+    trl_result result = sky_pixels_sort(&sky->pixels, view);
     if (result == TRL_OK) {
         result = draw_kind(sky, &programs->air, SKY_KIND_AIR, view);
     }
@@ -398,6 +399,7 @@ static trl_result spectral_draw(void *self, const struct sky_view *view)
 const struct sky_model sky_spectral = {.create = spectral_create,
                                        .destroy = spectral_destroy,
                                        .prepare = spectral_prepare,
+                                       .shade = spectral_shade,
                                        .draw = spectral_draw,
                                        .change = spectral_change,
                                        .is_settled = spectral_is_settled,

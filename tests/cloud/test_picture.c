@@ -316,6 +316,64 @@ static void clouds_are_about_as_sharp_as_of_finer_pixels(void **state)
     finish_drawer(&d);
 }
 
+// With shaders of a folder of tests/cloud/shaders in place of those of the same name.
+static struct drawer make_drawer_with(struct fixture *f, const char *clouds, const char *shaders)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", getenv("TRL_CLOUD_SHADERS"), shaders);
+    setenv("TRL_SHADER_DIR", path, 1);
+    struct drawer d = make_drawer(f, clouds);
+    trl_view view = look(2, 20);
+    free(draw(&d, &view)); // all programs are made
+    view = look(4000, -8);
+    free(draw(&d, &view));
+    unsetenv("TRL_SHADER_DIR");
+    return d;
+}
+
+static int count_black(const float *rgba)
+{
+    int count = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        count += rgba[4 * i] == 0 && rgba[4 * i + 1] == 0 && rgba[4 * i + 2] == 0;
+    }
+    return count;
+}
+
+static void what_clouds_hide_is_not_drawn_and_not_missed(void **state)
+{
+    struct fixture *f = *state;
+    static const char clouds[] = LAYERS("{\"cover\": 0.8}");
+    struct drawer d = make_drawer(f, clouds);
+    struct drawer all = make_drawer_with(f, clouds, "hides_nothing");
+    struct drawer behind = make_drawer_with(f, clouds, "joins_nothing");
+    static const double altitudes_m[] = {2, 4000}, pitches_deg[] = {20, -8};
+    for (int v = 0; v < 2; v++) {
+        const trl_view view = look(altitudes_m[v], pitches_deg[v]);
+        float *a = draw(&d, &view);
+        float *b = draw(&all, &view);
+        float *c = draw(&behind, &view);
+        const double mean = mean_green(b);
+        for (int i = 0; i < FLOATS; i++) {
+            // Ground beside what is hidden has one look at its shade less.
+            if (fabs((double)(a[i] - b[i])) > 2e-3 * mean) {
+                fail_msg("view %d, value %d: %g, with all drawn %g", v, i, (double)a[i],
+                         (double)b[i]);
+            }
+        }
+        const int black = count_black(c);
+        if (black < WIDTH * HEIGHT / 10 || black > WIDTH * HEIGHT * 9 / 10) {
+            fail_msg("view %d: of %d pixels %d are hidden", v, WIDTH * HEIGHT, black);
+        }
+        free(a);
+        free(b);
+        free(c);
+    }
+    finish_drawer(&d);
+    finish_drawer(&all);
+    finish_drawer(&behind);
+}
+
 static void bad_layers_are_told_in_a_line(void **state)
 {
     struct fixture *f = *state;
@@ -353,6 +411,7 @@ int main(void)
         cmocka_unit_test(a_picture_does_not_depend_on_what_was_drawn_before),
         cmocka_unit_test(a_cyclone_is_bright_around_a_dark_eye),
         cmocka_unit_test(fog_hides_the_ground_from_who_stands_in_it),
+        cmocka_unit_test(what_clouds_hide_is_not_drawn_and_not_missed),
         cmocka_unit_test(clouds_of_several_frames_are_those_of_one),
         cmocka_unit_test(clouds_are_about_as_sharp_as_of_finer_pixels),
         cmocka_unit_test(a_deck_is_bright_from_above_and_dims_the_ground_below),

@@ -95,9 +95,14 @@ static void draw_scene(struct fixture *f, const struct scene *scene, float mean_
         facet_texels[4 * SIZE * SIZE];
     scene->fill(position_texels, albedo_texels);
     fill_facets(position_texels, scene->eye_m, mean_square_slope, facet_texels);
+    static float kind_texels[4 * SIZE * SIZE]; // as of terrain/kinds.h
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        kind_texels[4 * i] = position_texels[4 * i + 3] > -1e8f ? 0.75f : 0;
+    }
     struct gpu_texture position = make_texture(f, position_texels);
     struct gpu_texture albedo = make_texture(f, albedo_texels);
     struct gpu_texture facets = make_texture(f, facet_texels);
+    struct gpu_texture kinds = make_texture(f, kind_texels);
     struct gpu_texture radiance = fixture_paint(f, SIZE, SIZE, scene->paint, NULL);
     const struct gpu_target_desc desc = {
         .label = "picture", .color_count = 1, .colors[0].texture = &radiance};
@@ -114,7 +119,7 @@ static void draw_scene(struct fixture *f, const struct scene *scene, float mean_
                                   .tan_half_fov_y = TAN_HALF};
     const struct sky_view view = {
         .camera = &camera,
-        .surface = {.position = &position, .albedo = &albedo, .facets = &facets},
+        .surface = {.position = &position, .albedo = &albedo, .facets = &facets, .kinds = &kinds},
         .target = &target};
     const float sea[3] = {mean_square_slope, 1.34f, 0};
     struct reflection reflection = {0};
@@ -124,6 +129,7 @@ static void draw_scene(struct fixture *f, const struct scene *scene, float mean_
     reflection_finish(&reflection);
     gpu_target_finish(&target);
     gpu_texture_finish(&radiance);
+    gpu_texture_finish(&kinds);
     gpu_texture_finish(&facets);
     gpu_texture_finish(&albedo);
     gpu_texture_finish(&position);
