@@ -17,7 +17,8 @@ SHARED_STRUCT(Shore)
     Number texels;   // of the mask in the footprint's width
     Length altitude; // of the ground above sea level; that of open sea is 0, or its bed's
     Number bed;      // 1: heights here have the sea's bed, and so its shore
-    Length around;   // the same, mean of the texels around; 0 where heights are finer than the mask
+    Length around;   // the same, mean of the texels around
+    Number fine;     // 1: heights are finer than the mask
     Number slope;    // of the ground
     Number made;     // of shore_made
     Length texel;    // of the mask
@@ -76,8 +77,8 @@ SHARED_STRUCT(ShoreWater)
 SHARED_FN ShoreWater shore_water(Shore s)
 {
     Number sea = s.code > 0.5 / 255.0 ? 1.0 : s.bed;
-    Length level =
-        SHORE_SEA_M + shared_max(s.around, 0.0) * (SHORE_AROUND + SHORE_AROUND_MADE * s.made);
+    Length around = (1.0 - s.fine) * shared_max(s.around, 0.0);
+    Length level = SHORE_SEA_M + around * (SHORE_AROUND + SHORE_AROUND_MADE * s.made);
     level += s.bed * (SHORE_BED_M - level);
     Length rise = s.slope * s.texels * s.texel + 0.1;
     Number below = 0.5 + (level - s.altitude) / rise;
@@ -99,8 +100,12 @@ SHARED_FN ShoreWater shore_water(Shore s)
     Number off = shared_max(moved, 0.0);
     Number part = off / shared_max(off + 1.0 - s.mask, 1.0e-6);
     Number shelf = sea_depth_code(shore_bed(off * s.texel)) * (1.0 - part * part * part * part);
-    Length fall = shore_bed((level - s.altitude) / shared_max(s.slope, 1.0e-6));
-    Number beach = sea * sea_depth_code(fall + SHORE_FALL_M * s.slope);
+    // Where ground is level yet, heights as coarse as the mask have the slope of what is half a
+    // texel on.
+    Length below_level = shared_max(level - s.altitude, 0.0);
+    Length way = below_level / shared_max(s.slope, 1.0e-6);
+    way += 0.5 * (1.0 - s.fine) * s.texel * shared_min(below_level / level, 1.0);
+    Number beach = sea * sea_depth_code(shore_bed(way) + SHORE_FALL_M * s.slope);
     ShoreWater w;
     w.part = shared_min(mask, height);
     w.code = shared_max(s.code, shared_max(shelf, beach) * (1.0 - coarse));

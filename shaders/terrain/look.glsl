@@ -40,11 +40,11 @@ vec2 look_shore(vec3 water, Tangent t, LookGround ground)
     for (int i = 0; i < count; i++) {
         vec2 bed = layers_linear(0.0, LAYER_NO_FLOOR, t.ground, t.log2_footprint);
         float around = layers_altitude_linear(0.0, t.ground, max(t.log2_footprint, water.z + 1.0));
-        around *= 1.0 - shore_fine(water.z - ground.log2_texel);
         float texel = exp2(water.z);
+        float fine = shore_fine(water.z - ground.log2_texel);
         ShoreWater w =
             shore_water(Shore(water.x, water.y, exp2(t.log2_footprint - water.z), bed.x, bed.y,
-                              around, ground.steep, shore_made(ground.shore / texel), texel));
+                              around, fine, ground.steep, shore_made(ground.shore / texel), texel));
         shore = vec2(w.part, w.code);
     }
 #endif

@@ -155,18 +155,17 @@ static double find_slope(const struct surface *surface, struct place at, double 
     return hypot(rises[0], rises[1]) / (2 * step * surface->radius_m);
 }
 
-// Mean of what is around, where heights are no finer than the mask: as the next level of detail.
+// Mean of what is around: as the next level of detail.
 static double find_around(const struct surface *surface, struct place at, double mask_rad,
                           double texel_rad)
 {
-    const double share = 1 - shore_fine(log2(mask_rad / texel_rad));
     double sum = 0;
-    for (int k = 0; k < 4 && share > 0; k++) {
+    for (int k = 0; k < 4; k++) {
         const struct place beside = {at.latitude + (k / 2 - 0.5) * mask_rad,
                                      at.longitude + (k % 2 - 0.5) * mask_rad / cos(at.latitude)};
         sum += find_level(surface, beside, texel_rad).altitude_m;
     }
-    return share * sum / 4;
+    return sum / 4;
 }
 
 double surface_water(const struct surface *surface, struct vec3 direction, double *depth_code)
@@ -193,6 +192,7 @@ double surface_water(const struct surface *surface, struct vec3 direction, doubl
                             .altitude = level.altitude_m,
                             .bed = level.bed,
                             .around = find_around(surface, at, mask.texel_rad, level.texel_rad),
+                            .fine = shore_fine(log2(mask.texel_rad / level.texel_rad)),
                             .slope = find_slope(surface, at, level.texel_rad),
                             .made = shore_made(shore_m / texel_m),
                             .texel = texel_m});

@@ -334,8 +334,10 @@ static void shores_agree(void **state)
     const float masks[] = {0, 0.3f, 0.55f, 0.9f, 1}, altitudes[] = {-3, 0, 0.4f, 40};
     for (int i = 0; i < 3 * 5 * 4 * 4; i++) {
         const float bed = 0.5f * (float)(i / 80);
-        // Mask and texels in a footprint; altitude, that around, slope, made-up detail.
-        const float angle[4] = {masks[i % 5], i / 20 % 4 == 3 ? 0.6f : 0.05f, 0, 0};
+        // Mask, texels in a footprint, how fine heights are.
+        // Altitude, that around, slope, made-up detail.
+        const float angle[4] = {masks[i % 5], i / 20 % 4 == 3 ? 0.6f : 0.05f, 0.5f * (float)(i % 3),
+                                0};
         const float shell[4] = {altitudes[i / 5 % 4], 20.0f * (float)(i / 20 % 4), 0.01f,
                                 0.4f * (float)(i / 20 % 4) - 0.5f};
         gpu_program_set_float(&program, "u_wants_sea", 2 + 0.5f * bed);
@@ -343,9 +345,9 @@ static void shores_agree(void **state)
         gpu_program_set_vec4(&program, "u_shell", shell);
         const struct texel got = draw(f, &program);
         for (int k = 0; k < 2; k++) {
-            const ShoreWater w = shore_water(
-                (Shore){(double)angle[0], 1 - k, (double)angle[1], (double)shell[0], (double)bed,
-                        (double)shell[1], (double)shell[2], (double)shell[3], 4000});
+            const ShoreWater w = shore_water((Shore){
+                (double)angle[0], 1 - k, (double)angle[1], (double)shell[0], (double)bed,
+                (double)shell[1], (double)angle[2], (double)shell[2], (double)shell[3], 4000});
             assert_true(w.part >= 0 && w.part <= 1 && w.code >= 0 && w.code <= 1);
             if (fabs((double)got.rgba[k] - w.part) > 1e-5 ||
                 fabs((double)got.rgba[k + 2] - w.code) > 1e-5) {

@@ -164,6 +164,28 @@ static void water_shelves_toward_its_shore(void **state)
     coasts_finish(&coasts);
 }
 
+// Heights as coarse as the mask, at a latitude where slopes are looked at over twice as many
+// texels: they feel land before the mean of what is around does, and no shoal may lie there.
+static void no_shoal_lies_off_the_shore(void **state)
+{
+    const struct fixture *f = *state;
+    char paths[LAYERS][128];
+    struct surface_layer_desc layers[LAYERS];
+    const struct surface_desc desc = describe(f, paths, layers);
+    const struct raster_place fine = {-180, 90, 0.5, 720, 360};
+    fixture_write_bytes(f, "fine", &fine, find_water, paths[WATER]);
+    struct coasts coasts = {.f = f};
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &coasts.on_cpu), TRL_OK);
+    assert_int_equal(surface_init(f->gpu, &desc, &coasts.on_gpu), TRL_OK);
+    for (int k = 0; k < 8; k++) {
+        const double place[2] = {60, -0.8 + 0.05 * k};
+        const struct both c = coasts_at(&coasts, place, 600);
+        assert_close(sea_code_depth(c.depth_code), 10, 0.1);
+        assert_close(sea_code_depth(c.drawn.lights[3] / 255.0), 10, 0.5);
+    }
+    coasts_finish(&coasts);
+}
+
 // A coast that runs askew through the texels, of a map whose mask knows nothing: land to the
 // north-east, a bed to the south-west. 1 where the line is, in degrees from it.
 static double from_askew(double latitude, double longitude)
@@ -325,6 +347,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_ends_where_mask_and_heights_say),
         cmocka_unit_test(water_shelves_toward_its_shore),
+        cmocka_unit_test(no_shoal_lies_off_the_shore),
         cmocka_unit_test(a_bed_has_its_own_shore),
         cmocka_unit_test(made_up_relief_ends_at_a_lake),
         cmocka_unit_test(made_up_shores_hold_together),

@@ -63,9 +63,9 @@ void main()
                      sea_code_depth(sea_depth_code(u_shell.w)));
     ShoreWater shores[2];
     for (int k = 0; k < 2; k++) {
-        shores[k] =
-            shore_water(Shore(u_angle.x, 1.0 - float(k), u_angle.y, u_shell.x,
-                              2.0 * (u_wants_sea - 2.0), u_shell.y, u_shell.z, u_shell.w, 4000.0));
+        shores[k] = shore_water(Shore(u_angle.x, 1.0 - float(k), u_angle.y, u_shell.x,
+                                      2.0 * (u_wants_sea - 2.0), u_shell.y, u_angle.z, u_shell.z,
+                                      u_shell.w, 4000.0));
     }
     seas = u_wants_sea > 1.5 ? vec4(shores[0].part, shores[1].part, shores[0].code, shores[1].code)
                              : seas;
