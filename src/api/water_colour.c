@@ -77,17 +77,14 @@ static trl_result look_up_under(const struct frame_sea *sea, struct under_column
 {
     const trl_result result = under_columns_find(columns, query->depth_m);
     double star[VOLUME_WAVELENGTHS] = {0}, sky[VOLUME_WAVELENGTHS] = {0};
-    for (int i = 0; i < 2 * VOLUME_WAVELENGTHS && result == TRL_OK; i++) {
-        const int k = i / 2;
-        const struct volume_under *under = columns->of[i % 2];
-        const double share = i % 2 ? columns->part : 1 - columns->part;
-        const struct volume_view view = {.eye_depth_m = fmin(query->eye_depth_m, under->depth_m),
-                                         .sun_mu = cos(query->sun_zenith_rad),
-                                         .view_mu = cos(query->view_zenith_rad),
-                                         .azimuth_rad = query->azimuth_rad};
-        const struct volume_light light = volume_under_at(under, k, &view);
-        star[k] += share * M_PI * light.star;
-        sky[k] += share * M_PI * light.sky;
+    const struct volume_view view = {.eye_depth_m = query->eye_depth_m,
+                                     .sun_mu = cos(query->sun_zenith_rad),
+                                     .view_mu = cos(query->view_zenith_rad),
+                                     .azimuth_rad = query->azimuth_rad};
+    for (int k = 0; k < VOLUME_WAVELENGTHS && result == TRL_OK; k++) {
+        const struct volume_light light = under_columns_at(columns, k, query->depth_m, &view);
+        star[k] = M_PI * light.star;
+        sky[k] = M_PI * light.sky;
     }
     sea_volume_rgb(sea->volume, star, out->star_rgb);
     sea_volume_rgb(sea->volume, sky, out->sky_rgb);

@@ -55,7 +55,7 @@ trl_result under_columns_find(struct under_columns *columns, double depth_m)
         const double octaves = log2(DEEPEST_M / depth) * UNDER_COLUMNS_AN_OCTAVE;
         wanted[0] = DEEPEST_M * exp2(-ceil(octaves) / UNDER_COLUMNS_AN_OCTAVE);
         wanted[1] = DEEPEST_M * exp2(-floor(octaves) / UNDER_COLUMNS_AN_OCTAVE);
-        columns->part = ceil(octaves) - octaves;
+        columns->part = wanted[1] > wanted[0] ? (depth - wanted[0]) / (wanted[1] - wanted[0]) : 0;
     }
     struct volume_under *found[2] = {NULL, NULL};
     trl_result result = take(columns, wanted[0], &found[0]);
@@ -83,24 +83,62 @@ trl_result under_columns_find(struct under_columns *columns, double depth_m)
 // Which part of the light a spectrum is of.
 enum part { SOURCE, RISING, BED };
 
+// Light that reaches the bed falls with its depth as an exponential does.
+static double mix_bed(double a, double b, double part)
+{
+    const double low = fmax(a, 0), high = fmax(b, 0);
+    return low > 0 && high > 0 ? low * pow(high / low, part) : low + (high - low) * part;
+}
+
+// Light in the water has a part that the bed sends back, which falls on the way down and up, as in
+// the table for eyes above: the share of the deeper column.
+static double share_of(const struct under_columns *columns, int wavelength,
+                       const struct under_sight *sight)
+{
+    const double low_m = columns->of[0]->depth_m, high_m = columns->of[1]->depth_m;
+    const struct water_optics *o = &columns->of[0]->column[wavelength].optics;
+    const double way = 1 / sight->sun_mu + 1 / fmax(fabs(sight->view_mu), 0.1);
+    const double rate =
+        way * (o->absorption_per_m + o->clear_per_m / 2 + o->particles_per_m * o->backscatter);
+    const double range = rate * (high_m - low_m);
+    return range > 1e-6 ? expm1(-range * columns->part) / expm1(-range) : columns->part;
+}
+
 // Of the mixed columns at a wavelength. A shallower column's eye is not below its bed.
 static struct under_source look(const struct under_columns *columns, enum part part, int wavelength,
                                 const struct under_sight *sight)
 {
-    struct under_source sum = {0, 0};
+    struct under_source light[2];
     for (int i = 0; i < 2; i++) {
         const struct volume_under *u = columns->of[i];
-        const double share = i ? columns->part : 1 - columns->part;
         struct under_sight own = *sight;
         own.eye_depth_m = fmin(own.eye_depth_m, u->depth_m);
-        const struct under_source light = part == SOURCE ? volume_under_source(u, wavelength, &own)
-                                          : part == RISING
-                                              ? volume_under_rising(u, wavelength, &own)
-                                              : volume_under_bed(u, wavelength, own.sun_mu);
-        sum.star += share * fmax(light.star, 0);
-        sum.sky += share * fmax(light.sky, 0);
+        light[i] = part == SOURCE   ? volume_under_source(u, wavelength, &own)
+                   : part == RISING ? volume_under_rising(u, wavelength, &own)
+                                    : volume_under_bed(u, wavelength, own.sun_mu);
     }
-    return sum;
+    if (part == BED) {
+        return (struct under_source){mix_bed(light[0].star, light[1].star, columns->part),
+                                     mix_bed(light[0].sky, light[1].sky, columns->part)};
+    }
+    const double share = share_of(columns, wavelength, sight);
+    return (struct under_source){
+        (1 - share) * fmax(light[0].star, 0) + share * fmax(light[1].star, 0),
+        (1 - share) * fmax(light[0].sky, 0) + share * fmax(light[1].sky, 0)};
+}
+
+struct volume_light under_columns_at(const struct under_columns *columns, int wavelength,
+                                     double depth_m, const struct volume_view *view)
+{
+    const struct volume_under *u = columns->of[0];
+    const bool is_up = view->view_mu > 0;
+    const struct under_sight sight = {view->eye_depth_m, view->view_mu,
+                                      volume_refract(view->sun_mu, u->index), view->azimuth_rad};
+    const struct under_sight below = {0, -view->view_mu, sight.sun_mu, view->azimuth_rad};
+    const struct under_sources sources = {
+        look(columns, SOURCE, wavelength, &sight),
+        look(columns, is_up ? RISING : BED, wavelength, is_up ? &below : &sight)};
+    return volume_under_join(u, wavelength, depth_m, view, &sources);
 }
 
 struct job {

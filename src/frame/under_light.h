@@ -43,12 +43,17 @@ struct under_columns {
     const trl_context *ctx;
     const struct ocean_desc *ocean;
     struct volume_under *of[2]; // of the depths around; both of one where the bed is level
-    double part;                // of the second
+    double part;                // of the way from the first's depth to the second's
 };
 
 // TRL_ERROR_MEMORY. Solves columns where others are wanted than are there: seconds.
 TRL_MUST_USE trl_result under_columns_find(struct under_columns *columns, double depth_m);
 void under_columns_finish(struct under_columns *columns);
+
+// What an eye sees of the water over a bed at that depth, for one of the wavelengths of the columns
+// found for it: as volume_radiance.
+struct volume_light under_columns_at(const struct under_columns *columns, int wavelength,
+                                     double depth_m, const struct volume_view *view);
 
 void under_light_fill(const struct under_columns *columns, const struct under_place *place,
                       const struct sky_sea_volume *volume, const struct bands *bands,

@@ -87,4 +87,13 @@ struct under_source volume_under_bed(const struct volume_under *under, int wavel
 double volume_under_once(const struct volume_under *under, int wavelength,
                          const struct under_sight *sight, double length_m);
 
+// J of a line of sight, and the light at its end: what rises below the surface, or the bed's.
+struct under_sources {
+    struct under_source source, far;
+};
+// What an eye sees of them over a bed at that depth.
+struct volume_light volume_under_join(const struct volume_under *under, int wavelength,
+                                      double depth_m, const struct volume_view *view,
+                                      const struct under_sources *sources);
+
 #endif // OCEAN_VOLUME_UNDER_H

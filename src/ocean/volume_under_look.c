@@ -146,31 +146,40 @@ double volume_under_once(const struct volume_under *u, int wavelength,
            (fabs(x) > 1e-6 ? -expm1(-x) / rate : length_m);
 }
 
-struct volume_light volume_under_at(const struct volume_under *u, int wavelength,
-                                    const struct volume_view *view)
+struct volume_light volume_under_join(const struct volume_under *u, int wavelength, double depth_m,
+                                      const struct volume_view *view,
+                                      const struct under_sources *sources)
 {
     const double sun = volume_refract(view->sun_mu, u->index), mu = view->view_mu;
     const bool is_up = mu > 0;
-    const double length_m = is_up ? view->eye_depth_m / mu : (u->depth_m - view->eye_depth_m) / -mu;
+    const double length_m = is_up ? view->eye_depth_m / mu : (depth_m - view->eye_depth_m) / -mu;
     const struct under_sight sight = {view->eye_depth_m, mu, sun, view->azimuth_rad};
-    const struct under_source source = volume_under_source(u, wavelength, &sight);
     const double extinction = u->extinction_per_m[wavelength];
     const double left = exp(-extinction * length_m);
-    struct under_source far; // where the line ends
+    struct under_source far = sources->far; // where the line ends
     if (is_up) {
-        const struct under_sight mirrored = {0, -mu, sun, view->azimuth_rad};
         const double back = fresnel_reflectance(mu, 1 / u->index);
-        far = volume_under_rising(u, wavelength, &mirrored);
         far.star *= back;
         far.sky = far.sky * back + (1 - back) * u->index * u->index / M_PI;
     } else {
         const double albedo = u->column[wavelength].bed_albedo / M_PI;
-        far = volume_under_bed(u, wavelength, sun);
-        far.star = albedo * (far.star + sun * exp(-extinction * u->depth_m / sun));
+        far.star = albedo * (far.star + sun * exp(-extinction * depth_m / sun));
         far.sky *= albedo;
     }
     const double beam = (1 - fresnel_reflectance(view->sun_mu, u->index)) / sun;
-    const double star = source.star * (1 - left) + left * far.star +
+    const double star = sources->source.star * (1 - left) + left * far.star +
                         volume_under_once(u, wavelength, &sight, length_m);
-    return (struct volume_light){beam * star, source.sky * (1 - left) + left * far.sky};
+    return (struct volume_light){beam * star, sources->source.sky * (1 - left) + left * far.sky};
+}
+
+struct volume_light volume_under_at(const struct volume_under *u, int wavelength,
+                                    const struct volume_view *view)
+{
+    const double sun = volume_refract(view->sun_mu, u->index), mu = view->view_mu;
+    const struct under_sight sight = {view->eye_depth_m, mu, sun, view->azimuth_rad};
+    const struct under_sight below = {0, -mu, sun, view->azimuth_rad};
+    const struct under_sources sources = {volume_under_source(u, wavelength, &sight),
+                                          mu > 0 ? volume_under_rising(u, wavelength, &below)
+                                                 : volume_under_bed(u, wavelength, sun)};
+    return volume_under_join(u, wavelength, u->depth_m, view, &sources);
 }

@@ -16,6 +16,7 @@
 #include "context.h"
 #include "frame/daylight.h"
 #include "frame/sea.h"
+#include "frame/under_light.h"
 #include "ocean/sea.h"
 #include "ocean/volume_under.h"
 #include "reference/water.h"
@@ -269,6 +270,35 @@ static void tables_for_eyes_under_water_say_the_same(void **state)
     }
 }
 
+// Pictures have columns for two depths an octave, and mix them for the depth that there is.
+static void beds_between_columns_are_as_bright_as_their_own(void **state)
+{
+    static const double depth_m = 10, views[] = {-0.85, -0.3, 0.2, 0.9};
+    const int wavelengths[] = {2, 8, 12};
+    for (int k = 0; k < KINDS; k++) {
+        struct ocean_desc ocean = kind(k);
+        ocean.bed.depth_m = -1;
+        struct under_columns columns = {.ctx = *state, .ocean = &ocean};
+        double worst = 0;
+        assert_int_equal(under_columns_find(&columns, depth_m), TRL_OK);
+        for (int i = 0; i < 4 * 3; i++) {
+            const int wavelength = wavelengths[i % 3];
+            const struct volume_view view = {2, i % 2 ? 0.9 : 0.4, views[i / 3], 1};
+            const struct volume_light read = under_columns_at(&columns, wavelength, depth_m, &view);
+            struct volume_column column =
+                volume_column_make(&ocean, depth_m, columns.of[0]->nm[wavelength]);
+            column.index = columns.of[0]->index;
+            const struct volume_light light = solve(*state, &column, view);
+            const double off =
+                fmax(fabs(read.star / light.star - 1), fabs(read.sky / light.sky - 1));
+            worst = fmax(worst, off);
+        }
+        printf("water %d: %.2f %%\n", k, 100 * worst);
+        assert_true(worst < 0.03); // what is between the tables' own entries is as far off
+        under_columns_finish(&columns);
+    }
+}
+
 static void tables_come_back_from_the_cache(void **state)
 {
     (void)state;
@@ -433,6 +463,7 @@ int main(void)
         cmocka_unit_test(eyes_under_water_agree_with_paths),
         cmocka_unit_test(the_table_says_the_same),
         cmocka_unit_test(tables_for_eyes_under_water_say_the_same),
+        cmocka_unit_test(beds_between_columns_are_as_bright_as_their_own),
         cmocka_unit_test(tables_come_back_from_the_cache),
         cmocka_unit_test(water_has_the_colour_of_its_depth),
         cmocka_unit_test(pictures_have_the_colour_of_the_solution)};
