@@ -153,10 +153,17 @@ float noise_soil(int i, NoiseView view)
     return relief_soil(view.amplitude) * relief_lacking_of(u_noise_size[i].x, view.data);
 }
 
-// Also where there is nothing to see: on the sea, and on the floor of oceans.
+// Also where there is nothing to see: on the sea, and on the floor of oceans. Where masks have
+// shores detail moves those, which ends nowhere but on the sea: where ground rises through its
+// level relief has no height, but shores go on.
+#ifdef HAS_GROUND
+const float NOISE_LEAST_M = 1e-3;
+#else
+const float NOISE_LEAST_M = 1e-8;
+#endif
 bool noise_is_over(int i, int end, NoiseView view)
 {
-    return i >= end || u_noise_size[i].x - view.footprint < 1.0 || view.amplitude < 1e-3;
+    return i >= end || u_noise_size[i].x - view.footprint < 1.0 || view.amplitude < NOISE_LEAST_M;
 }
 
 // Variance of the heights below a texel, of an amplitude of 1.

@@ -310,6 +310,62 @@ static void made_up_shores_hold_together(void **state)
     surface_finish(&s);
 }
 
+// A low shore before high ground: the cubic falls below the sea between them, and rises through it
+// where made-up detail decides whether water is.
+static double find_low_shore(double latitude, double longitude)
+{
+    (void)latitude;
+    return longitude < 0 ? -10 : longitude < 0.5 ? 13 : 300;
+}
+
+static double find_sea(double latitude, double longitude)
+{
+    (void)latitude;
+    return longitude < 0 ? 255 : 0;
+}
+
+static double find_rise(const struct surface *s, double latitude)
+{
+    double low = 0.02, high = 0.25; // longitudes
+    for (int k = 0; k < 40; k++) {
+        const double middle = 0.5 * (low + high);
+        const struct vec3 up = vec3_from_lat_lon(latitude * DEGREE, middle * DEGREE);
+        *(surface_altitude_of_data(s, up) < 0 ? &low : &high) = middle;
+    }
+    return low;
+}
+
+// Relief has no size at sea level, but the shore's detail goes on over it.
+static void no_notch_lies_at_sea_level(void **state)
+{
+    const struct fixture *f = *state;
+    char paths[LAYERS][128];
+    struct surface_layer_desc layers[LAYERS];
+    struct surface_desc desc = describe(f, paths, layers);
+    const struct raster_place fine = {-180, 90, 0.5, 720, 360};
+    fixture_write_heights(f, "low", &fine, find_low_shore, paths[ELEVATION]);
+    fixture_write_bytes(f, "sea", &fine, find_sea, paths[WATER]);
+    desc.detail = (struct surface_detail){.roughness = 1, .smallest_m = 100};
+    struct coasts coasts = {.f = f};
+    assert_int_equal(surface_init_on_cpu(f->ctx, &desc, &coasts.on_cpu), TRL_OK);
+    assert_int_equal(surface_init(f->gpu, &desc, &coasts.on_gpu), TRL_OK);
+    int count = 0;
+    for (double latitude = 1; latitude < 60 && count < 4; latitude += 0.07) {
+        const double place[2] = {latitude, find_rise(&coasts.on_cpu, latitude)};
+        const struct vec3 up = vec3_from_lat_lon(latitude * DEGREE, (place[1] + 0.02) * DEGREE);
+        double code; // of water 2 km on
+        if (surface_water(&coasts.on_cpu, up, &code) > 0.99) {
+            const struct both c = coasts_at(&coasts, place, 600);
+            printf("at %g, %g: %g, drawn %g\n", place[0], place[1], c.water,
+                   c.drawn.albedo_water[3] / 255.0);
+            assert_close(c.drawn.albedo_water[3] / 255.0, 1, 0.01);
+            count++;
+        }
+    }
+    assert_int_equal(count, 4);
+    coasts_finish(&coasts);
+}
+
 static double find_red(const struct surface *s, double latitude, double longitude)
 {
     double rgb[3] = {0};
@@ -351,6 +407,7 @@ int main(void)
         cmocka_unit_test(a_bed_has_its_own_shore),
         cmocka_unit_test(made_up_relief_ends_at_a_lake),
         cmocka_unit_test(made_up_shores_hold_together),
+        cmocka_unit_test(no_notch_lies_at_sea_level),
         cmocka_unit_test(land_is_not_painted_as_the_sea_beside_it),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
