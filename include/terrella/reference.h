@@ -36,10 +36,11 @@ TRL_API trl_reference_desc trl_reference_desc_default(void);
 /// Traces a picture of a view: the camera, the star, ground and air of the scene as
 /// trl_renderer_draw shows them; bodies of the view hide the star where they stand before it, and
 /// are black. Ground is as high and as coloured as the scene's rasters say, casts shadows, and has
-/// its lights; made-up detail is left out, clouds are as fine as there is, and water reflects as
-/// land does. There are no stars but the planet's own, no moonlight and no airglow. Colour is
-/// integrated over the whole visible spectrum. Blocks for long, uses every core, tells the
-/// context's progress function how far it is.
+/// its lights; made-up detail is left out, and clouds are as fine as there is. The sea of an ocean
+/// is its mean rough surface over its water; without an ocean water reflects as land does. There
+/// are no stars but the planet's own, no moonlight and no airglow. Colour is integrated over the
+/// whole visible spectrum. Blocks for long, uses every core, tells the context's progress function
+/// how far it is.
 /// @param view            as for trl_renderer_draw
 /// @param width           with height within TRL_RENDERER_MAX_SIDE and TRL_RENDERER_MAX_PIXELS
 /// @param[out] rgba       width x height x 4 floats: linear sRGB primaries in cd m^-2, alpha 1, top
