@@ -12,15 +12,16 @@
 enum { WARM_FRAMES = 2, DEFAULT_RUNS = 3, WARM_FLIGHT = 5, FLIGHT_RUNS = 12, TIMINGS_MAX = 48 };
 static const struct number_size whole_size = {1280, 720}, flight_size = {640, 360};
 
-// From frame to frame of a flight; below the first height as fast as an airliner, above it so much
-// faster that heights stay alike.
-static const double frame_s = 0.2, low_speed_m_s = 250, low_m = 1e4, turn_rad = 0.003;
+// From frame to frame of a flight; as fast as the viewer flies (apps/viewer/fly.c), over the ground
+// or, where a view has its altitude from the sphere, over that.
+static const double frame_s = 0.2, least_m_s = 15, heights_per_s = 0.8, turn_rad = 0.003;
 
 struct frame_case {
     const struct bench_job *job;
     trl_renderer *renderer;
     double ground_radius_m;
     trl_view view;
+    double height_m; // of a flight, by which its speed goes
     struct number_size size;
     bool is_flight;
     char name[BENCH_NAME_MAX];
@@ -49,7 +50,7 @@ static void fly_on(struct frame_case *c)
 {
     trl_view *view = &c->view;
     const double radius_m = c->ground_radius_m + view->altitude_m;
-    const double step_m = frame_s * low_speed_m_s * fmax(1, view->altitude_m / low_m);
+    const double step_m = frame_s * fmax(least_m_s, heights_per_s * c->height_m);
     view->latitude_rad += step_m * cos(view->heading_rad) / radius_m;
     view->longitude_rad +=
         step_m * sin(view->heading_rad) / (radius_m * fmax(cos(view->latitude_rad), 0.01));
@@ -115,6 +116,10 @@ static trl_result draw_views(const struct bench_job *job, const trl_scene *scene
         snprintf(c.name, sizeof c.name, "%s%.40s %ux%u", is_flight ? "flight " : "", name,
                  c.size.width, c.size.height);
         result = trl_scene_view(scene, name, &c.view);
+        c.height_m = c.view.altitude_m;
+        if (result == TRL_OK && is_flight) { // as the viewer: the sun stays over its place
+            result = trl_renderer_resolve(c.renderer, &c.view, &c.view);
+        }
         if (result == TRL_OK) {
             result = draw_case(&c);
             bench_show(job);

@@ -7,7 +7,7 @@
 // A frame that shows another part of the sky, other light or later clouds is a cut. Turns: cosine
 // of 30 degrees; the star: 0.01 degrees.
 static const double LEAST_TURN_COSINE = 0.866, LEAST_SUN_COSINE = 1 - 1.5e-8;
-static const double MOST_PAUSE_S = 10, LEAST_MOVE_M = 200, MOST_MOVE = 0.25, MOST_ZOOM = 0.02;
+static const double MOST_PAUSE_S = 10, LEAST_MOVE_M = 200, MOST_MOVE = 0.5, MOST_ZOOM = 0.02;
 
 static double find_zoom(const struct camera *a, const struct camera *b)
 {

@@ -11,6 +11,9 @@ enum { SIDE = 640 };
 static const double RING_AT_NEAR = 50; // see projection.near_m
 // Shadows that fall into view may come from this far outside, in radians: 190 km on Earth.
 static const double OUTSIDE_RAD = 0.03;
+// How much farther than a mesh's camera the map's may move: up to 0.6 heights, still among its
+// finest cells. In flight map and sky view take more than all else.
+static const double STAYS = 4;
 // A place does not shade itself: its altitude in the map is not exactly that of the mesh.
 static const double SELF_CELLS = 0.75;
 // A quarter of the sun's radius: what it moves in 16 seconds of Earth's day.
@@ -136,6 +139,7 @@ trl_result terrain_shadow_update(struct terrain_shadow *s, const struct camera *
     }
     if (is_stale) {
         s->projection = projection_make(s->surface, camera);
+        s->projection.threshold_m *= STAYS;
         s->extent = tan(fmin(s->projection.reach_rad + OUTSIDE_RAD, 3) / 2);
         s->power = projection_power(s->projection.near_m / s->surface->radius_m / 2 / s->extent,
                                     RING_AT_NEAR, SIDE / 2.0);
