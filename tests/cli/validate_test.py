@@ -60,7 +60,8 @@ class Validate(ProgramTest):
     def test_json(self):
         done = self.validate("--json")
         found = json.loads(done.stdout)
-        self.assertEqual(list(found), ["passed", "bounds", "spectral", "seconds", "machine", "scenes"])
+        self.assertEqual(list(found), ["passed", "bounds", "spectral", "seconds", "machine", "scenes", "clouds"])
+        self.assertEqual(found["clouds"], [])  # compared with the scenes that ship alone
         self.assertEqual(done.returncode, 0 if found["passed"] else 1)
         self.assertEqual(found["bounds"], {"mean": 0.01, "largest": 0.02})
         self.assertEqual(found["spectral"]["views"], 9)
