@@ -127,29 +127,13 @@ SHARED_FN Number relief_fullness(Number height, Number full)
     return full > 0.0 ? relief_smooth(0.0, 1.0, shared_abs(height) / full) : 1.0;
 }
 
-// How round ridges are, 0 to 1: those of waves that data nearly resolve. A crest of kilometres with
-// another slope on each side would be in the data. None from a quarter of the round wave down.
-SHARED_FN Number relief_round(Number log2_wave, Number log2_round)
+// Folded noise: a ridge where the noise is 0. Of the same deviation as the noise, and mean 0.
+SHARED_FN NoiseValue relief_fold(NoiseValue n, Number ridged)
 {
-    return shared_clamp(1.0 - 0.5 * (log2_round - log2_wave), 0.0, 1.0);
-}
-
-// What is folded of noise of this roundness.
-SHARED_FN Number relief_folded(Number ridged, Number roundness)
-{
-    return ridged * (1.0 - 0.6 * roundness);
-}
-
-// Folded noise: a ridge where the noise is 0. Of nearly the same deviation as the noise, and mean
-// 0: of 2 million places the root's means are 0.180 to 0.240, linear in the crest's width to 0.005.
-SHARED_FN NoiseValue relief_fold(NoiseValue n, Number ridged, Number roundness)
-{
-    Number crest = 0.035 + 0.105 * roundness;
-    Number folded = relief_folded(ridged, roundness);
-    Number size = sqrt(n.value * n.value + crest * crest);
-    Number turn = (1.0 - folded) - folded * 1.6 * n.value / size;
+    Number size = sqrt(n.value * n.value + 0.0012);
+    Number turn = (1.0 - ridged) - ridged * 1.6 * n.value / size;
     NoiseValue v;
-    v.value = (1.0 - folded) * n.value + folded * 1.6 * (0.161 + 0.56 * crest - size);
+    v.value = (1.0 - ridged) * n.value + ridged * 1.6 * (0.178 - size);
     v.x = turn * n.x;
     v.y = turn * n.y;
     v.z = turn * n.z;

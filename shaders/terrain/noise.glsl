@@ -21,8 +21,7 @@ uniform vec4 u_noise_lattice[9]; // lattice axes, local, three for each third oc
 uniform ivec4 u_noise_ends; // octaves of noise, of gullies after them, of noise after those; the
                             // first that rock has
 uniform vec4 u_noise_form;  // contrast, strength of gullies, altitude of full roughness, sea level
-uniform vec4 u_noise_more;  // roughness on level ground; log2 of the map's texel in m; variation
-                            // of colours; log2 of the wave in m whose ridges are round
+uniform vec4 u_noise_more;  // roughness on level ground; log2 of the map's texel in m; floor
 
 struct NoiseGround {
     vec4 map;    // height, amplitude, ridged, climate
@@ -281,8 +280,8 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
                 stones_add(n, wave, view.footprint, r.past, soil);
             }
 #endif
-            NoiseValue v = relief_fold(n, view.ridged, relief_round(wave, u_noise_more.w));
-            r = relief_add(r, v, size * seen, rough * seen, u_noise_form.x);
+            r = relief_add(r, relief_fold(n, view.ridged), size * seen, rough * seen,
+                           u_noise_form.x);
             float value = size > 0.0 ? seen * n.value : 0.0;
             r.tone += value * relief_tone(wave);
             r.shore += value / u_noise_place[i].w;

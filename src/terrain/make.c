@@ -49,7 +49,6 @@ trl_result make_detail(const struct surface_desc *desc, struct surface *s)
     const struct noise_desc noise = {.form = NOISE_ERODED,
                                      .octaves = NOISE_MAX_OCTAVES,
                                      .wavelength_m = wave_m,
-                                     .round_m = wave_m / 2,
                                      .mountain_m = wave_m,
                                      .gully_m = wave_m / DETAIL_WAVES_TO_GULLY,
                                      .lacunarity = 2,

@@ -6,7 +6,6 @@
 
 #include <math.h>
 
-static const double BEYOND_ALL_WAVES = 1e6;
 // Contrast of ridges and valleys (relief_add).
 static const double CONTRAST = 2.5;
 static const double SMALLEST_SLOPE_M = 15;
@@ -46,7 +45,6 @@ static void place_octaves(struct terrain_noise *noise)
 {
     const struct noise_desc *desc = &noise->desc;
     double wave = desc->wavelength_m;
-    noise->log2_round = desc->round_m > 0 ? log2(desc->round_m) : BEYOND_ALL_WAVES;
     int count = 0;
     for (; count < desc->octaves && wave >= desc->smallest_m; count++) {
         noise->wave_m[count] = wave;
@@ -182,9 +180,8 @@ static Relief add_noise(const struct terrain_noise *noise, const struct noise_pl
     const double size =
         g->amplitude_m * noise->size[i] * lacking * (level + (1 - level) * r.cutting);
     const double rough = relief_soil_size(size, log2_wave, relief_soil(g->amplitude_m) * lacking);
-    const double roundness = relief_round(log2_wave, noise->log2_round);
-    r = relief_add(r, relief_fold(turn_back(noise, i, n), g->ridged, roundness), size * seen,
-                   rough * seen, CONTRAST);
+    r = relief_add(r, relief_fold(turn_back(noise, i, n), g->ridged), size * seen, rough * seen,
+                   CONTRAST);
     const double value = size > 0 ? seen * n.value : 0;
     r.tone += value * relief_tone(log2_wave);
     r.shore += value * noise->wave_m[i];
@@ -330,7 +327,7 @@ void noise_bind(const struct terrain_noise *noise, const struct anchor *anchor,
                            desc->has_sea ? 0.0f : -1e9f};
     const float more[4] = {(float)desc->level_roughness,
                            (float)log2(SHARED_PI * noise->radius_m / noise->map.height),
-                           (float)desc->albedo_variation, (float)noise->log2_round};
+                           (float)desc->albedo_variation, 0};
     bind_map(noise, anchor, program);
     bind_octaves(noise, anchor, program);
     gpu_program_set_vec4s(program, "u_noise_lattice", rows[0], 9);

@@ -26,7 +26,6 @@ struct noise_desc {
     enum noise_form form;
     int octaves;             // at most NOISE_MAX_OCTAVES of them; 0: no noise
     double wavelength_m;     // of the first
-    double round_m;          // ridges of waves so long are round, of a quarter sharp; 0: all are
     double mountain_m;       // longer waves are hardly higher; sizes are relative to this one
     double gully_m;          // the longest of NOISE_ERODED
     double lacunarity;       // ratio of wavelengths, > 1
@@ -60,7 +59,6 @@ struct terrain_noise {
     int ends[3]; // octaves of noise, of gullies after them, of noise after those: the last is all
     double wave_m[NOISE_MAX_OCTAVES];
     double log2_wave[NOISE_MAX_OCTAVES];
-    double log2_round;                    // of desc.round_m, or beyond all waves
     double size[NOISE_MAX_OCTAVES];       // relative to that of mountains
     uint32_t shift[NOISE_MAX_OCTAVES][3]; // lattice points, by the seed
     struct vec3 lattice[3][3];            // rows; octaves take turns

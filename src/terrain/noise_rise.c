@@ -8,27 +8,19 @@
 // How much less folded the ground may be within reach of where it was looked at.
 static const double RIDGED_SLACK = 0.3;
 
-// Of an octave of noise of size 1. relief_fold: from -1 and 1 of plain noise to -1.33 and 0.24 of
-// sharp ridges, -1.24 and 0.16 of round ones.
-static struct noise_reach find_most(const struct terrain_noise *noise, int octave, double ridged)
-{
-    const double roundness = relief_round(noise->log2_wave[octave], noise->log2_round);
-    const double folded = relief_folded(ridged, roundness);
-    return (struct noise_reach){-RELIEF_WEIGHT_BOUND * (1 + 0.35 * folded),
-                                RELIEF_WEIGHT_BOUND * (1 - 0.76 * folded)};
-}
-
 struct noise_reach noise_find_reach(const struct terrain_noise *noise, double amplitude_m,
                                     double ridged)
 {
-    double down = 0, up = 0;
+    double noises = 0, gullies = 0;
     for (int i = 0; i < noise->ends[2]; i++) {
         const bool is_gully = i >= noise->ends[0] && i < noise->ends[1];
-        const struct noise_reach most = find_most(noise, i, ridged);
-        down += noise->size[i] * (is_gully ? -NOISE_GULLIES : most.down_m);
-        up += noise->size[i] * (is_gully ? NOISE_GULLIES : most.up_m);
+        *(is_gully ? &gullies : &noises) += noise->size[i];
     }
-    return (struct noise_reach){amplitude_m * down, amplitude_m * up};
+    // relief_fold: from 1 and -1 of plain noise to 0.23 and -1.33 of ridges.
+    const double weight = RELIEF_WEIGHT_BOUND;
+    return (struct noise_reach){
+        -amplitude_m * (noises * weight * (1 + 0.35 * ridged) + gullies * NOISE_GULLIES),
+        amplitude_m * (noises * weight * (1 - 0.77 * ridged) + gullies * NOISE_GULLIES)};
 }
 
 // Slopes per wavelength of octaves of size 1. Of a million random places one octave alone is never
@@ -76,7 +68,9 @@ struct noise_rise noise_find_rise(const struct terrain_noise *noise,
                                   const struct noise_place *place,
                                   const struct noise_around *around)
 {
+    // relief_fold: between -1.35 and 1 of plain noise, 0.23 of ridges.
     const double ridged = fmax(place->ground.ridged - RIDGED_SLACK, 0);
+    const double up = RELIEF_WEIGHT_BOUND * (1 - 0.77 * ridged);
     const double any = RELIEF_WEIGHT_BOUND * RELIEF_VALUE_BOUND;
     const struct noise_range amplitudes = find_amplitudes(noise, place, around);
     struct noise_rise rise = {0, 0, 0};
@@ -85,8 +79,7 @@ struct noise_rise noise_find_rise(const struct terrain_noise *noise,
     for (int i = 0; i < noise->ends[2]; i++) {
         const bool is_gully = i >= noise->ends[0] && i < noise->ends[1];
         const struct noise_range size = find_sizes(noise, i, &amplitudes, place->data, around);
-        const double most =
-            size.most * (is_gully ? NOISE_GULLIES : find_most(noise, i, ridged).up_m);
+        const double most = size.most * (is_gully ? NOISE_GULLIES : up);
         const double slope =
             size.most * (is_gully ? NOISE_GULLIES * STEEPEST_GULLY : STEEPEST_NOISE);
         const double change = slope * around->reach_m / noise->wave_m[i];

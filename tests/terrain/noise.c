@@ -211,32 +211,6 @@ static void test_gullies_come_and_go(void **state)
     assert_close(sqrt(squares / COUNT), 0.6, 0.01);
 }
 
-// A ridge's slope turns over a width; of round ones it turns a third as fast, and neither makes
-// the ground higher in the mean, or goes beyond the bounds that rays are told.
-static void test_ridges_are_round_or_sharp(void **state)
-{
-    (void)state;
-    enum { COUNT = 300000 };
-    double turns[2];
-    for (int round = 0; round < 2; round++) {
-        double sum = 0, highest = 0, lowest = 0;
-        for (int i = 0; i < COUNT; i++) {
-            const struct vec3 at = vec3_scale(some_place(i), 0.001 * i);
-            const NoisePlace place = {at.x, at.y, at.z, (Whole)i, 5, 11};
-            const double v = relief_fold(noise_simplex(place), 1, round).value;
-            sum += v;
-            highest = fmax(highest, v);
-            lowest = fmin(lowest, v);
-        }
-        const double folded = relief_folded(1, round);
-        assert_true(fabs(sum / COUNT) < 0.005); // in a noise of deviation 0.22
-        assert_true(highest < 1 - 0.76 * folded && lowest > -1 - 0.35 * folded);
-        const NoiseValue on = {0.01, 1, 0, 0}, before = {-0.01, 1, 0, 0};
-        turns[round] = (relief_fold(before, 1, round).x - relief_fold(on, 1, round).x) / folded;
-    }
-    assert_true(turns[1] > 0 && turns[1] < turns[0] / 3);
-}
-
 static void test_gradients_are_those_of_the_heights(void **state)
 {
     struct fixture *f = *state;
@@ -484,7 +458,6 @@ int main(void)
         cmocka_unit_test(test_no_shore_is_above_the_ceiling),
         cmocka_unit_test(test_detail_of_data_agrees_on_both_sides),
         cmocka_unit_test(test_gullies_come_and_go),
-        cmocka_unit_test(test_ridges_are_round_or_sharp),
         cmocka_unit_test(test_gradients_are_those_of_the_heights),
         cmocka_unit_test(test_a_cliff_is_as_rough_upward_as_along),
     };
