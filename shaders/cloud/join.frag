@@ -14,7 +14,8 @@ in vec2 v_uv;
 
 uniform sampler2D u_clouds;
 #ifndef FILTER
-uniform sampler2D u_hidden; // of squares of four pixels, see cloud/hidden.frag
+uniform sampler2D u_hidden; // of squares of pixels, see cloud/hidden.frag
+const int SQUARE = 4;       // GPU_HIDE_SQUARE
 uniform sampler2D u_joined;
 uniform float u_sharp; // share of what was marched
 #endif
@@ -99,7 +100,7 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     out_clouds = vec4(0.0);
     // Loops, since branches save nothing.
-    bool is_cloudy = texelFetch(u_hidden, pixel / 4, 0).x > 0.0;
+    bool is_cloudy = texelFetch(u_hidden, pixel / SQUARE, 0).x > 0.0;
     for (int once = 0; once < (is_cloudy && u_sharp < 1.0 ? 1 : 0); once++) {
         float alike;
         vec4 joined = join_four(u_joined, pixel, 1, false, alike);

@@ -15,7 +15,7 @@ struct gpu_hide {
 TRL_MUST_USE trl_result gpu_hide_init(struct gpu *gpu, struct gpu_hide *out);
 void gpu_hide_finish(struct gpu_hide *hide);
 
-#define GPU_HIDE_SQUARE 4 // pixels a side; shaders/lib/hide.frag knows it too
+#define GPU_HIDE_SQUARE 4 // pixels a side; shaders/lib/hide.frag and cloud/join.frag have it too
 // R8, a texel for each square of the target's pixels: 1 where all of it is hidden. NULL: nothing
 // is.
 TRL_MUST_USE trl_result gpu_hide_draw(struct gpu_hide *hide, const struct gpu_texture *hidden,

@@ -124,35 +124,17 @@ static void change_all(const struct painter *p, painter_change change, int step)
     }
 }
 
-// Marks land beside the sea in `next`.
-static void mark_shore(const struct painter *p, int step, uint32_t x, uint32_t y)
-{
-    (void)step;
-    const size_t i = (size_t)y * p->frame->width + x;
-    size_t around[8];
-    p->next[i] = 0;
-    if (p->states[i] == 0) {
-        find_around(p->frame, x, y, around);
-        p->next[i] = is_beside_sea(p, around);
-    }
-}
-
-static void set_shore(const struct painter *p, int step, uint32_t x, uint32_t y)
-{
-    (void)step;
-    const size_t i = (size_t)y * p->frame->width + x;
-    p->states[i] = p->next[i] ? STATE_SHORE : p->states[i];
-}
-
-// Marks what the step changes: texels that have a neighbour with a colour, first of the shore.
+// Marks in `next` what the step changes: in step 0 land beside the sea, then texels that have a
+// neighbour with a colour, first of the shore.
 static void mark(const struct painter *p, int step, uint32_t x, uint32_t y)
 {
     const size_t i = (size_t)y * p->frame->width + x;
+    const uint8_t waiting = step == 0 ? 0 : step <= SHORE ? STATE_SHORE : STATE_SEA;
     size_t around[8];
     p->next[i] = 0;
-    if (p->states[i] == (step <= SHORE ? STATE_SHORE : STATE_SEA)) {
+    if (p->states[i] == waiting) {
         find_around(p->frame, x, y, around);
-        p->next[i] = sum_around(p, around, step, NULL) > 0;
+        p->next[i] = step == 0 ? is_beside_sea(p, around) : sum_around(p, around, step, NULL) > 0;
     }
 }
 
@@ -173,7 +155,7 @@ static void paint_marked(const struct painter *p, int step, uint32_t x, uint32_t
 static void set_marked(const struct painter *p, int step, uint32_t x, uint32_t y)
 {
     const size_t i = (size_t)y * p->frame->width + x;
-    p->states[i] = p->next[i] ? (uint8_t)step : p->states[i];
+    p->states[i] = p->next[i] ? (step == 0 ? STATE_SHORE : (uint8_t)step) : p->states[i];
 }
 
 // What is left of the shore are islands, of which no texel is sure: they look like the land around.
@@ -233,8 +215,8 @@ static trl_result paint(struct painter *p)
     }
     find_kinds(p);
     open_blocks(p);
-    change_all(p, mark_shore, 0);
-    change_all(p, set_shore, 0);
+    change_all(p, mark, 0);
+    change_all(p, set_marked, 0);
     struct land_mean mean;
     const trl_result result = land_mean_init(p->surface->ctx, f, p->rgba, p->states, &mean);
     if (result != TRL_OK) {

@@ -212,7 +212,8 @@ static bool is_known(const struct surface *surface, const struct layer_frame *ma
 
 void load_note_depths(struct surface *surface, const struct terrain_layer *layer)
 {
-    if (blend_is_change(layer->mode)) {
+    if (blend_is_change(layer->mode) || !surface->depth.is_told ||
+        surface->counts[SURFACE_WATER] == 0) {
         return;
     }
     uint8_t *codes = layer->heights.shorts ? make_codes(surface, layer) : NULL;
