@@ -42,11 +42,16 @@ void band_fit_init(struct band_fit *fit, const struct optics *optics)
     for (int k = 0; k < optics->wavelength_count; k++) {
         const struct cie_rgb rgb = cie_rgb_of_xyz((struct cie_xyz){
             fit->xyz_from_lanes[0][k], fit->xyz_from_lanes[1][k], fit->xyz_from_lanes[2][k]});
+        fit->star_luminance += fit->xyz_from_lanes[1][k];
         fit->rgb_from_lanes[0][k] = rgb.r;
         fit->rgb_from_lanes[1][k] = rgb.g;
         fit->rgb_from_lanes[2][k] = rgb.b;
     }
 }
+
+// Of the star's light as it comes: what is darker is not seen beside the rest, and has no say in
+// its colours. Stars through Venus' clouds, 1e-20, would choose the reddest wavelengths for all.
+#define LEAST_SEEN 1e-6
 
 void band_fit_add(struct band_fit *fit, const lanes *spectrum)
 {
@@ -58,7 +63,7 @@ void band_fit_add(struct band_fit *fit, const lanes *spectrum)
         rgb.b += fit->rgb_from_lanes[2][k] * (double)(*spectrum)[k];
     }
     const double luminance = cie_luminance(rgb);
-    if (!(luminance > 1e-30)) {
+    if (!(luminance > LEAST_SEEN * fit->star_luminance)) {
         return;
     }
     for (int k = 0; k < count; k++) {
@@ -113,12 +118,14 @@ void band_fit_add_surfaces(struct band_fit *fit, const lanes *light)
 void band_fit_add_products(struct band_fit *fit, const struct solution *solution)
 {
     const struct moments *m = &solution->moments;
+    const lanes bare = (lanes){0} + 1; // the star above the air
     static const int suns_deg[] = {0, 40, 60, 70, 80, 85, 88};
     for (size_t s = 0; s < sizeof suns_deg / sizeof *suns_deg; s++) {
         const double mu = cos(suns_deg[s] * M_PI / 180);
         lanes star;
         sunlight_at(&solution->sun, fit->optics->ground_radius_m, mu, &star);
         band_fit_add_surfaces(fit, &star);
+        band_fit_add_surfaces(fit, &bare);
         int nearest = 0;
         for (int i = 0; i < m->suns; i++) {
             nearest = fabs(moments_sun_mu(m, i) - mu) < fabs(moments_sun_mu(m, nearest) - mu)

@@ -28,11 +28,13 @@ struct band_fit {
     const struct optics *optics;
     double xyz_from_lanes[3][LANES]; // the exact matrix, from the star's fine spectrum and CIE 1931
     double rgb_from_lanes[3][LANES]; // the same in linear sRGB
+    double star_luminance;           // of the star's light as it comes, cd m^-2 (sr^-1)
     double gram[LANES][LANES];       // weighted products of the spectra seen
 };
 
 void band_fit_init(struct band_fit *fit, const struct optics *optics);
-// Adds a spectrum of radiance per unit irradiance; spectra count alike, whatever their brightness.
+// Adds a spectrum of radiance per unit irradiance; spectra count alike, whatever their brightness,
+// unless they are too dark to be seen.
 void band_fit_add(struct band_fit *fit, const lanes *spectrum);
 // Adds surfaces of many colours in this light, bare and behind air.
 void band_fit_add_surfaces(struct band_fit *fit, const lanes *light);

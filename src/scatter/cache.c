@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { FORMAT_VERSION = 6, SAMPLES = 256, PIECES = 6, FILES_KEPT = 9 };
+enum { FORMAT_VERSION = 7, SAMPLES = 256, PIECES = 6, FILES_KEPT = 9 };
 
 static uint64_t hash_double(uint64_t hash, double value)
 {
