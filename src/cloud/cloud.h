@@ -8,8 +8,9 @@
 
 enum { CLOUD_MAX_LAYERS = 4, CLOUD_MAX_CYCLONES = 4 };
 
-// Where between base and top a layer is widest.
-#define CLOUD_CUMULUS_PEAK 0.2
+// Where between base and top a layer is widest. Cumulus: low, as air that rises condenses at one
+// height and has flat bases.
+#define CLOUD_CUMULUS_PEAK 0.08
 #define CLOUD_STRATUS_PEAK 0.5
 #define CLOUD_FOG_PEAK 0.0
 
