@@ -24,7 +24,8 @@
 #include "sky/spectral/colour.glsl"
 
 uniform vec2 u_picture; // pixels
-uniform vec3 u_grid; // of those rays that are marched: the first, each way; distance between them
+uniform vec3 u_grid;   // of those rays that are marched: the first, each way; distance between them
+uniform float u_sharp; // of what a pixel takes, the share that is no mean of four rays
 
 #ifdef SURFACE
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
@@ -96,14 +97,16 @@ ivec2 find_texel()
 }
 
 // Spreads the steps' beginnings, and the levels that are looked at, over each four pixels, which
-// join.frag takes the mean of: x and y of each are quarters in another order.
+// join.frag takes the mean of: x and y of each are quarters in another order. Where it takes none,
+// spread levels of one ray of four show as a lattice.
 vec2 spread_four()
 {
     ivec2 at = find_texel() & 1;
     float rank = float(at.x == at.y ? 2 * at.x : 3 - 2 * at.x);
     // From square to square within a quarter, by Roberts's R2 (2018): no streaks along rows.
     float within = fract(dot(floor(0.5 * vec2(find_texel())), vec2(0.75487767, 0.56984029)));
-    return (vec2(rank, mod(2.0 * rank + 1.0, 5.0)) + vec2(within, 0.5)) * 0.25;
+    vec2 spread = (vec2(rank, mod(2.0 * rank + 1.0, 5.0)) + vec2(within, 0.5)) * 0.25;
+    return mix(spread, vec2(0.5), u_sharp);
 }
 
 // With clouds above the layer and below it in what lights it from there. What its own clouds do to

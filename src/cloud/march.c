@@ -294,6 +294,7 @@ static trl_result march_rays(struct cloud_march *march, const struct cloud_view 
     cloud_march_set_field(march, view->camera, &march->march);
     set_view(view, &march->march);
     gpu_program_set_vec3(&march->march, "u_grid", grid);
+    gpu_program_set_float(&march->march, "u_sharp", find_sharpness(march, view));
     gpu_program_set_texture(&march->march, "u_deck", &march->deck.map);
     gpu_program_set_vec4(&march->march, "u_deck_map", march->deck.place);
     gpu_pass_begin(march->gpu, &clouds);

@@ -316,6 +316,44 @@ static void clouds_are_about_as_sharp_as_of_finer_pixels(void **state)
     finish_drawer(&d);
 }
 
+// Each ray of a lattice of two by two is apart from its neighbours: by how much the most, of what
+// the least is.
+static double lattice(const float *rgba, int width, int height)
+{
+    double squares[4] = {0};
+    for (int y = 2; y < height - 2; y += 2) {
+        for (int x = 2; x < width - 2; x += 2) {
+            const float *at = &rgba[4 * (y * width + x) + 1]; // green
+            const double apart =
+                (double)at[0] - 0.25 * (double)(at[8] + at[-8] + at[8 * width] + at[-8 * width]);
+            squares[y % 4 + x % 4 / 2] += apart * apart;
+        }
+    }
+    const double low = fmin(fmin(squares[0], squares[1]), fmin(squares[2], squares[3]));
+    const double high = fmax(fmax(squares[0], squares[1]), fmax(squares[2], squares[3]));
+    return sqrt(high / low);
+}
+
+// From so high that no mean of rays is taken, each ray must stand for itself.
+static void a_deck_from_afar_has_no_lattice(void **state)
+{
+    enum { SIDES = 4 };
+    struct fixture *f = *state;
+    struct drawer d = make_drawer(f, LAYERS("{\"cover\": 0.01, \"scale_m\": 5000},"
+                                            "{\"type\": \"stratus\", \"cover\": 0.9,"
+                                            " \"base_m\": 3600, \"top_m\": 14000,"
+                                            " \"extinction_per_m\": 0.01, \"scale_m\": 40000}"));
+    const trl_view view = look(600e3, -90);
+    static float rgba[FLOATS * SIDES * SIDES];
+    assert_int_equal(trl_renderer_draw(d.renderer, &view, WIDTH * SIDES, HEIGHT * SIDES, 0),
+                     TRL_OK);
+    assert_int_equal(trl_renderer_read_radiance(d.renderer, rgba), TRL_OK);
+    const double seen = lattice(rgba, WIDTH * SIDES, HEIGHT * SIDES);
+    print_message("a lattice of %.5f\n", seen);
+    assert_true(seen < 1.15); // 1.29 with spread levels
+    finish_drawer(&d);
+}
+
 // With shaders of a folder of tests/cloud/shaders in place of those of the same name.
 static struct drawer make_drawer_with(struct fixture *f, const char *clouds, const char *shaders)
 {
@@ -411,6 +449,7 @@ int main(void)
         cmocka_unit_test(a_picture_does_not_depend_on_what_was_drawn_before),
         cmocka_unit_test(a_cyclone_is_bright_around_a_dark_eye),
         cmocka_unit_test(fog_hides_the_ground_from_who_stands_in_it),
+        cmocka_unit_test(a_deck_from_afar_has_no_lattice),
         cmocka_unit_test(what_clouds_hide_is_not_drawn_and_not_missed),
         cmocka_unit_test(clouds_of_several_frames_are_those_of_one),
         cmocka_unit_test(clouds_are_about_as_sharp_as_of_finer_pixels),
