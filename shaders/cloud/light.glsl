@@ -14,10 +14,12 @@ uniform sampler2D u_sunlight;
 uniform sampler2D u_skylight;
 uniform sampler2D u_rising;
 uniform sampler2D u_evenness;
+uniform sampler2D u_slope;
 
 // Of what lights clouds around a place, in the bands.
 struct Lights {
     vec4 sun, above, below;
+    vec4 slope; // see cloud_turn
 };
 
 // The layer's diffuse depth, at its cover.
@@ -41,8 +43,10 @@ Lights lights_at(CloudLayer layer, vec3 place, float cover)
     lights.sun = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
     float level = cloud_level_share(whole_depth(layer, cover));
     vec4 even = exp(textureLod(u_evenness, day, 0.0) * level) * (1.0 / SHARED_PI);
-    lights.above = exp(textureLod(u_skylight, day, 0.0)) * even;
+    vec4 above = exp(textureLod(u_skylight, day, 0.0));
+    lights.above = above * even;
     lights.below = exp(textureLod(u_rising, day, 0.0)) * even;
+    lights.slope = above * textureLod(u_slope, day, 0.0) * (1.0 / SHARED_PI);
     return lights;
 }
 
@@ -50,6 +54,7 @@ Lights lights_at(CloudLayer layer, vec3 place, float cover)
 // below.
 struct Shares {
     float sun, above, below;
+    float turned; // of the slope
 };
 
 // Of one slice of a ray, for what is lit in it.
@@ -57,8 +62,9 @@ struct Lighting {
     vec2 phases; // of light that was scattered once, and a few times
     vec3 up;
     float sun_mu, view_mu;
-    float width; // of a pixel, m
-    float rest;  // see cloud_whole_box
+    float toward; // see cloud_turn
+    float width;  // of a pixel, m
+    float rest;   // see cloud_whole_box
 };
 
 // Optical depth toward the star beyond what cloud_sun_depth looks at: the map's.
@@ -98,6 +104,7 @@ Shares shares_at(CloudLayer layer, vec3 place, CloudPlaces at, float cover, Ligh
                  cloud_several(around, lighting.phases.y, lighting.sun_mu, depth, far);
     shares.above = cloud_from_above(around, height, lighting.view_mu);
     shares.below = 1.0 - shares.above;
+    shares.turned = cloud_turn(lighting.toward, around.whole, depth);
     return shares;
 }
 

@@ -118,7 +118,9 @@ Lights lights_by_clouds(CloudLayer layer, Lights lights, vec3 place, float sun_m
     float under = back * (1.0 - deck_below(texel.y, layer.shell.x));
     vec4 down = lights.sun * (sun_mu / SHARED_PI) + lights.above;
     lights.below = mix(lights.below * (1.0 - back), down, under);
-    lights.above *= 1.0 - back * deck_below(texel.y, layer.shell.y);
+    float passed = 1.0 - back * deck_below(texel.y, layer.shell.y);
+    lights.above *= passed;
+    lights.slope *= passed;
     return lights;
 }
 
@@ -249,6 +251,9 @@ void main()
             lighting.up = up;
             lighting.sun_mu = sun_mu;
             lighting.view_mu = dot(up, ray.direction);
+            // The star's part of the horizontal, along the view.
+            lighting.toward = (ray.nu - lighting.view_mu * sun_mu) *
+                              inversesqrt(max(1.0 - sun_mu * sun_mu, 1.0e-4));
             lighting.width = width;
             lighting.rest = four.y;
             float rise = layer.form.w * lighting.view_mu / (layer.shell.y - layer.shell.x);
@@ -260,7 +265,7 @@ void main()
             bool is_near = true;
             float left_before = left;
             float moment = 0.0; // of s
-            Shares sum = Shares(0.0, 0.0, 0.0);
+            Shares sum = Shares(0.0, 0.0, 0.0, 0.0);
             Span span = first_span(layer, ray, s, weather, box);
             for (int i = 0; i < 2 * STEPS; i++) {
                 // Through air and cloud until there is enough to be lit. Where nothing is skipped
@@ -310,6 +315,7 @@ void main()
                 sum.sun += shares.sun * weight;
                 sum.above += shares.above * weight;
                 sum.below += shares.below * weight;
+                sum.turned += shares.turned * weight;
                 moment += at * weight;
                 left -= weight;
             }
@@ -329,9 +335,9 @@ void main()
                 light *= share_before(uv, at);
 #endif
                 air += light * taken;
-                bands +=
-                    (lights.sun * sum.sun + lights.above * sum.above + lights.below * sum.below) *
-                    before.transmittance;
+                bands += (lights.sun * sum.sun + lights.above * sum.above +
+                          lights.below * sum.below + lights.slope * sum.turned) *
+                         before.transmittance;
             }
             near = far;
         }

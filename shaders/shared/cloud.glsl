@@ -145,8 +145,9 @@ SHARED_FN Number cloud_lobe(Number cos_angle, Number g)
 #define CLOUD_BACK_G -0.4
 #define CLOUD_BACK_SHARE 0.04
 
-// 3/4 (1 - g) with the mean cosine of both lobes, 0.83: of the optical depth, what two streams see
-// turned back.
+#define CLOUD_MEAN_COSINE 0.829 // of both lobes
+
+// 3/4 (1 - g) with that: of the optical depth, what two streams see turned back.
 #define CLOUD_DIFFUSE_DEPTH 0.128
 
 // What a few scatterings leave of the asymmetries.
@@ -206,6 +207,17 @@ SHARED_FN Number cloud_from_above(CloudAround around, Number height, Number view
     Number under = 5.22 * around.side * around.below + 1.39 * around.whole * high;
     Number tilt = exp(1.88 * view_mu);
     return (tilt + under) / (tilt + 1.0 / tilt + over + under);
+}
+
+// Of light of all directions that grows brighter toward the star, as the part x of a direction that
+// points horizontally there, what a place sends to the eye: the mean x of where its paths come
+// from. `toward` is the x of the view, and one scattering leaves the mean cosine of it; where there
+// is cloud all around what is left is that of the lit sides, or of those with clouds of this
+// optical depth between them and the star.
+SHARED_FN Number cloud_turn(Number toward, Number whole, Number depth)
+{
+    Number ahead = CLOUD_MEAN_COSINE * toward / (1.0 + 2.67 * whole);
+    return ahead + 0.062 / (1.0 + 0.151 * depth) - 0.035;
 }
 
 // Thin layers take light of all directions as it comes, the horizon's too; deep ones that of a

@@ -108,6 +108,34 @@ static lanes evenness(const struct atmosphere *a, struct light_place at)
            lanes_max(fluxes, lanes_set(1e-30f));
 }
 
+// Toward the star's side. Of the harmonics all of a flux along x is sqrt(4 pi / 3) of (1, 1).
+static lanes flux_toward_star(const struct moments *m, struct light_place at)
+{
+    const int h = harmonic_index(1, 1);
+    const lanes below = moments_of(m, at.level, at.sun)[h];
+    const lanes above = moments_of(m, at.level + 1, at.sun)[h];
+    return (below + (above - below) * at.part) * (float)sqrt(4 * M_PI / 3);
+}
+
+// Light L s x of all directions has the flux 4 pi / 3 L s along x; half a sky of L sends pi L to
+// level ground.
+static lanes slope(const struct atmosphere *a, struct light_place at)
+{
+    return flux_toward_star(&a->solution.moments, at) * 0.75f /
+           lanes_max(side_light(a, 1, at), lanes_set(1e-30f));
+}
+
+void ground_light_slope(const struct atmosphere *a, double highest_m, float *texels)
+{
+    const struct moments *m = &a->solution.moments;
+    for (int row = 0; row < GROUND_LIGHT_ALTITUDES; row++) {
+        for (int i = 0; i < m->suns; i++) {
+            const lanes light = slope(a, place_of(m, altitude_of(row, highest_m), i));
+            store(&a->bands, &light, texels + ((size_t)row * (size_t)m->suns + i) * BAND_COUNT);
+        }
+    }
+}
+
 // As logarithms.
 static void store_row(const struct atmosphere *a, double altitude_m, int side, float *texels)
 {

@@ -23,4 +23,10 @@ void ground_light_from_below(const struct atmosphere *atmosphere, double highest
 // halves of the sky with both irradiances have: above 1 where light comes from the horizon.
 void ground_light_evenness(const struct atmosphere *atmosphere, double highest_m, float *texels);
 
+// How much brighter it is toward the star than across: with x the part of a direction that points
+// horizontally toward the star, the first moment's s x of all directions, those from below too, in
+// units of the mean radiance of the sky. Not a logarithm. Forward peaks that count as not scattered
+// are not in it, but in the star's light.
+void ground_light_slope(const struct atmosphere *atmosphere, double highest_m, float *texels);
+
 #endif // SKY_GROUND_LIGHT_H

@@ -60,6 +60,10 @@ static trl_result make_maps(struct spectral_maps *maps)
                               GROUND_LIGHT_ALTITUDES, 1, &maps->evenness);
     }
     if (result == TRL_OK) {
+        result = make_texture(maps->gpu, "slope of the sky", maps->skylight.width,
+                              GROUND_LIGHT_ALTITUDES, 1, &maps->slope);
+    }
+    if (result == TRL_OK) {
         result = make_texture(maps->gpu, "albedo of the air", 1, GROUND_LIGHT_ALTITUDES, 1,
                               &maps->air_albedo);
     }
@@ -140,6 +144,7 @@ void spectral_maps_finish(struct spectral_maps *maps)
     gpu_texture_finish(&maps->skylight);
     gpu_texture_finish(&maps->rising);
     gpu_texture_finish(&maps->evenness);
+    gpu_texture_finish(&maps->slope);
     gpu_texture_finish(&maps->air_albedo);
     gpu_texture_finish(&maps->phase);
     mem_free(maps->atmosphere->ctx, maps->texels);
@@ -263,6 +268,10 @@ static trl_result update_ground_light(struct spectral_maps *maps, double highest
         result = upload(&maps->evenness, texels);
     }
     if (result == TRL_OK) {
+        ground_light_slope(maps->atmosphere, wanted_m, texels);
+        result = upload(&maps->slope, texels);
+    }
+    if (result == TRL_OK) {
         for (int row = 0; row < GROUND_LIGHT_ALTITUDES; row++) {
             aerial_air_albedo(&maps->aerial, wanted_m * row / (GROUND_LIGHT_ALTITUDES - 1),
                               texels + (size_t)row * BAND_COUNT);
@@ -310,6 +319,7 @@ void spectral_maps_bind(const struct spectral_maps *maps, struct gpu_program *pr
     gpu_program_set_texture(program, "u_air_albedo", &maps->air_albedo);
     gpu_program_set_texture(program, "u_rising", &maps->rising);
     gpu_program_set_texture(program, "u_evenness", &maps->evenness);
+    gpu_program_set_texture(program, "u_slope", &maps->slope);
     gpu_program_set_texture(program, "u_sunlight", &maps->sunlight);
     gpu_program_set_texture(program, "u_skylight", &maps->skylight);
     gpu_program_set_texture(program, "u_phase", &maps->phase);

@@ -14,6 +14,7 @@
 //     skylight   2D RGBA32F  sun x altitude, irradiance of level ground by the sky
 //     rising     2D RGBA32F  sun x altitude, light that rises there over the mean ground
 //     evenness   2D RGBA32F  sun x altitude, of both of these (ground_light.h)
+//     slope      2D RGBA32F  sun x altitude, of light toward the star (ground_light.h)
 //     air_albedo 2D RGBA32F  1 x altitude, what the air above sends back of that
 //     phase      2D RGBA32F  sine of half the angle, phase functions of peaked constituents
 //     source     3D RGBA32F  as scattered, of each cell alone (aerial.h), for march.h
@@ -31,7 +32,8 @@ struct spectral_maps {
     struct aerial aerial;
     struct gpu_texture slice[1 + TABLE_MAX_PEAKED];
     struct gpu_texture scattered[1 + TABLE_MAX_PEAKED];
-    struct gpu_texture extinction, bounce, sunlight, skylight, rising, evenness, air_albedo, phase;
+    struct gpu_texture extinction, bounce, sunlight, skylight, rising, evenness, slope;
+    struct gpu_texture air_albedo, phase;
     struct gpu_texture source[AERIAL_SOURCES]; // where it was asked for
     float *texels;                             // scratch of one slice
     double slice_radius_m;                     // what the slice was made for; 0: nothing yet

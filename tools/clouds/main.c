@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Finds the numbers of cloud_several and cloud_from_above (shaders/shared/cloud.glsl) from light by
-// paths in seven kinds of layers, and says how far the laws as they stand are off in fields that
-// the numbers were not found in.
+// Finds the numbers of cloud_several, cloud_from_above and cloud_turn (shaders/shared/cloud.glsl)
+// from light by paths in seven kinds of layers, and says how far the laws as they stand are off in
+// fields that the numbers were not found in.
 //
 //     fit-clouds [PLACES [PATHS]]     of each of the layers; 400 and 64
 #include "fit.h"
@@ -109,6 +109,12 @@ static double above_law(const double *n, const struct cloud_sample *s)
     return (tilt + under) / (tilt + 1 / tilt + over + under);
 }
 
+static double turn_law(const double *n, const struct cloud_sample *s)
+{
+    return CLOUD_MEAN_COSINE * s->toward / (1 + fabs(n[0]) * s->whole) +
+           n[1] / (1 + fabs(n[2]) * s->depth) - n[3];
+}
+
 static double once_as_it_stands(const double *n, const struct cloud_sample *s)
 {
     (void)n;
@@ -128,6 +134,12 @@ static double above_as_it_stands(const double *n, const struct cloud_sample *s)
     return cloud_from_above(around_of(s), s->height, s->view_mu);
 }
 
+static double turn_as_it_stands(const double *n, const struct cloud_sample *s)
+{
+    (void)n;
+    return cloud_turn(s->toward, s->whole, s->depth);
+}
+
 static double once_of(const struct cloud_sample *s)
 {
     return s->once;
@@ -140,6 +152,10 @@ static double above_of(const struct cloud_sample *s)
 {
     return s->above;
 }
+static double turned_of(const struct cloud_sample *s)
+{
+    return s->turned;
+}
 
 static void print_fit(struct fit fit, const struct cloud_sample *samples, size_t count)
 {
@@ -151,24 +167,31 @@ static void print_fit(struct fit fit, const struct cloud_sample *samples, size_t
     printf("\n");
 }
 
-// The law over what was measured, in the mean, and the mean size of its errors over that.
+// The law over what was measured, in the mean, where that is of one sign, and the mean size of its
+// errors over that of what was measured.
 static void print_judged(const struct fit *fit, const struct cloud_sample *samples, size_t count)
 {
-    double measured = 0, said = 0, off = 0;
+    double measured = 0, size = 0, said = 0, off = 0;
     for (size_t i = 0; i < count; i++) {
         const double law = fit->law(NULL, &samples[i]), wanted = fit->measured(&samples[i]);
         measured += wanted;
+        size += fabs(wanted);
         said += law;
         off += fabs(law - wanted);
     }
-    printf("  %s %.3f (%.2f)", fit->name, said / measured, off / measured);
+    printf("  %s", fit->name);
+    if (measured > 0.9 * size) {
+        printf(" %.3f", said / measured);
+    }
+    printf(" (%.2f)", off / size);
 }
 
 static void judge(const struct field *field, const struct cloud_sample *samples, size_t count)
 {
     const struct fit laws[] = {{"once", once_as_it_stands, once_of, 0, 0, {0}},
                                {"several", several_as_it_stands, several_of, 0, 0, {0}},
-                               {"above", above_as_it_stands, above_of, 0, 0, {0}}};
+                               {"above", above_as_it_stands, above_of, 0, 0, {0}},
+                               {"turned", turn_as_it_stands, turned_of, 0, 0, {0}}};
     printf("%-12s cover %.2f%s", field->name, field->layer.cover,
            field->is_held ? ", held out:" : ":");
     for (size_t i = 0; i < sizeof laws / sizeof *laws; i++) {
@@ -200,7 +223,9 @@ static trl_result run(const trl_context *ctx, size_t places, size_t paths)
             {34, 0.79, 0.14, 0.81, 0.62, 0.71, 0.65, 2.2, 5.1, 0.062, 0.045, 0.18, 0.47}};
         const struct fit above = {"cloud_from_above", above_law, above_of, 0.05, 3, {5, 1, 1}};
         print_fit(several, samples, fitted);
+        const struct fit turn = {"cloud_turn", turn_law, turned_of, 1, 4, {2.6, 0.07, 0.15, 0.04}};
         print_fit(above, samples, fitted);
+        print_fit(turn, samples, fitted);
     }
     free(samples);
     return result;

@@ -157,6 +157,12 @@ static void find_around(const struct sampler *s, struct vec3 place, struct vec3 
     out->around_below = density_at(s, vec3_sub(place, rise), side_m, cover);
 }
 
+// The horizontal direction toward the star.
+static struct vec3 horizontal(struct vec3 up, struct vec3 sun)
+{
+    return vec3_normalize(vec3_sub(sun, vec3_scale(up, vec3_dot(up, sun))));
+}
+
 struct path {
     struct vec3 place, direction;
     double weight;
@@ -192,7 +198,9 @@ static void follow(const struct sampler *s, struct path path, struct vec3 sun,
         const struct reference_clouds_way way = {path.place, next, far_m};
         const double met_m = reference_clouds_meet(&s->clouds, &way, random);
         if (isinf(met_m)) {
-            sum->above += vec3_dot(path.place, next) > 0 ? path.weight : 0;
+            const struct vec3 up = vec3_normalize(path.place);
+            sum->above += vec3_dot(up, next) > 0 ? path.weight : 0;
+            sum->turned += path.weight * vec3_dot(horizontal(up, sun), next);
             return;
         }
         path.place = vec3_add(path.place, vec3_scale(next, met_m));
@@ -236,6 +244,7 @@ static void sample_place(const struct sampler *s, size_t paths, struct random_st
     *out = (struct cloud_sample){.sun_mu = sin(elevation),
                                  .view_mu = vec3_dot(up, path.direction),
                                  .nu = vec3_dot(sun, path.direction),
+                                 .toward = vec3_dot(horizontal(up, sun), path.direction),
                                  .height = height_of(s, path.place)};
     double several2 = 0, above2 = 0;
     const double share = 1 / (double)paths;
@@ -245,6 +254,7 @@ static void sample_place(const struct sampler *s, size_t paths, struct random_st
         out->once += one.once * share;
         out->several += one.several * share;
         out->above += one.above * share;
+        out->turned += one.turned * share;
         several2 += one.several * one.several * share;
         above2 += one.above * one.above * share;
     }

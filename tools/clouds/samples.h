@@ -8,11 +8,13 @@
 
 struct cloud_sample {
     double sun_mu, view_mu, nu, height;
+    double toward;     // the star's part of the horizontal, along the view
     double depth, far; // toward the star, as the march looks; beyond
     double side, whole, around_above, around_below, cover; // as in CloudAround
     // Light toward the eye: of the star, scattered once, and more often with its error; the part of
-    // an even sky's, the ground being black.
-    double once, several, several_error, above, above_error;
+    // an even sky's, the ground being black; that of light as bright as the part of a direction
+    // toward the star, from above and below.
+    double once, several, several_error, above, above_error, turned;
 };
 
 struct cloud_plan {
