@@ -26,7 +26,7 @@ uniform vec4
     u_cloud_form[CLOUD_MAX_LAYERS]; // tiles of fibres per rad about the axis, 0: none; shear, m;
                                     // width of the edge in noise; border, m
 uniform vec4 u_cloud_belt[CLOUD_MAX_LAYERS]; // south, north, feather, rad; cover in cyclones
-uniform vec4 u_cloud_volume;     // texels a side, its last level, -, whether there is a map
+uniform vec4 u_cloud_volume;     // texels a side, last level, tiles of systems a radius, has a map
 uniform float u_cloud_spread[8]; // by level
 uniform sampler3D u_cloud_noise;
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// How much of the sky a layer may cover over a place: its own cover, map and belt, and cyclones
-// over them. C has the same in src/cloud/weather.c and sets the uniforms (cloud_march_set_field).
+// How much of the sky a layer may cover over a place: its own cover, map or weather systems, and
+// belt, and cyclones over them. C has the same in src/cloud/weather.c and sets the uniforms
+// (cloud_march_set_field).
 #ifndef CLOUD_WEATHER_GLSL
 #define CLOUD_WEATHER_GLSL
 
@@ -34,6 +35,15 @@ vec2 cyclone_at(int index, vec3 up, float width)
     return vec2(cyclone_share(x, phase, eye, noise), cyclone_rest(x, eye));
 }
 
+// `unturned` is unit.
+float gather_systems(float cover, vec3 unturned, float width)
+{
+    vec3 tiles = u_cloud_volume.z * vec3(1.0, 1.0, CLOUD_SYSTEM_STRETCH);
+    float texels = width / u_planet.x * tiles.z * u_cloud_volume.x;
+    float noise = textureLod(u_cloud_noise, unturned * tiles, log2(max(texels, 1.0))).x;
+    return cloud_gathered_cover(cover, noise, noise);
+}
+
 // `width` is that of a pixel there, m.
 float cloud_cover(CloudLayer layer, vec3 place, float width)
 {
@@ -48,6 +58,10 @@ float cloud_cover(CloudLayer layer, vec3 place, float width)
     float inside = cyclone_step(belt.x - belt.z, belt.x, latitude) *
                    (1.0 - cyclone_step(belt.y, belt.y + belt.z, latitude));
     float cover = layer.shell.w * (u_cloud_volume.w > 0.5 ? map : 1.0) * inside;
+    // Loops of no turn cost nothing on the CPU, branches do.
+    for (int once = 0; once < (u_cloud_volume.z > 0.0 ? 1 : 0); once++) {
+        cover = gather_systems(cover, unturned, width);
+    }
     for (int i = 0; i < u_cyclones; i++) {
         vec2 cyclone = cyclone_at(i, up, width);
         cover = mix(cover * cyclone.y, belt.w, cyclone.x);

@@ -42,6 +42,11 @@ SHARED_FN Number cloud_gathered_cover(Number cover, Number noise, Number wide)
     return cover * odds / (1.0 - cover + cover * odds);
 }
 
+// Weather systems are a third of their tiles, as the largest clouds are of theirs, and twice as
+// long along circles of latitude as across; their odds are those of fields and regions together.
+#define CLOUD_SYSTEM_TILES 3.0
+#define CLOUD_SYSTEM_STRETCH 2.0
+
 // Tiles are bent by a field of sines, each along an axis of its own, that no two look alike. Their
 // wavelength and amplitude are these numbers of tiles; a metre becomes at most
 // 1 + 2 pi amplitude / wavelength, 1.31, of noise.

@@ -48,6 +48,7 @@ struct cloud_desc {
     struct cloud_layer layers[CLOUD_MAX_LAYERS];
     size_t cyclone_count;
     struct cloud_cyclone cyclones[CLOUD_MAX_CYCLONES];
+    double systems_m; // size of weather systems where there is no map; 0: none
     double seed;
     char *map_path; // owned; raster of cover, NULL: none
 };

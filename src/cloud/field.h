@@ -65,6 +65,12 @@ double cloud_field_fibre_turns(const struct cloud_layer *layer, double ground_ra
 struct vec3 cloud_field_bent(struct vec3 unturned_m, double tile_m);
 void cloud_field_bend_phase(struct vec3 unturned_m, double tile_m, double out[3]);
 
+// Tiles of the noise of weather systems in the planet's radius; 0: there are none, or a map knows.
+double cloud_field_system_tiles(const struct cloud_field *field);
+// Where it is looked at for a place; false where there are none.
+bool cloud_field_system_place(const struct cloud_field *field, size_t layer, struct vec3 position_m,
+                              double tiles[3]);
+
 // Where the widest noise is looked at for a place: along other axes, so that its tiles do not line
 // up with the others.
 struct vec3 cloud_field_wide_place(struct vec3 position_m);

@@ -56,6 +56,13 @@ static double most_cover(const struct cloud_field *field, size_t layer, struct v
         map = side > 0 ? fmin(1, here + reach / side + reach / lower) : 1;
     }
     double cover = l->cover * map;
+    double tiles[3];
+    if (cloud_field_system_place(field, layer, position_m, tiles)) {
+        const bool are_wide = CLOUD_SYSTEM_TILES * field->desc.systems_m >=
+                              CLOUD_SYSTEM_STRETCH * l->scale_m; // than what reach_m is for
+        const double noise = are_wide ? most_noise(field, tiles) : 1;
+        cover = cloud_gathered_cover(cover, noise, noise);
+    }
     if (is_in_reach(field, position_m, reach_m)) {
         cover = fmax(cover, l->cyclone_cover);
     }

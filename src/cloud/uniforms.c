@@ -129,7 +129,8 @@ void cloud_march_set_field(const struct cloud_march *m, const struct camera *cam
     for (int level = 0; level < CLOUD_LEVELS; level++) {
         spread[level] = (float)field->volume.spread[level];
     }
-    const float volume[4] = {CLOUD_SIDE, CLOUD_LEVELS - 1, 0, field->has_map ? 1.0f : 0.0f};
+    const float volume[4] = {CLOUD_SIDE, CLOUD_LEVELS - 1, (float)cloud_field_system_tiles(field),
+                             field->has_map ? 1.0f : 0.0f};
     set_layers(field, program);
     set_anchors(field, camera, program);
     set_cyclones(field, program);

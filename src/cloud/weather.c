@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// How much of the sky a layer covers where: its own cover, map and belt, cyclones over them, and
-// clouds gathered into fields. shaders/cloud/weather.glsl is the same.
+// How much of the sky a layer covers where: its own cover, map or weather systems, and belt,
+// cyclones over them, and clouds gathered into fields. shaders/cloud/weather.glsl is the same.
 #include "cloud/field.h"
 
 #include "shared/cloud.glsl"
@@ -49,12 +49,35 @@ static double cover_with(const struct cloud_field *field, const struct cloud_cyc
     return covers[0] * cyclone_rest(x, eye) * (1 - share) + covers[1] * share;
 }
 
+double cloud_field_system_tiles(const struct cloud_field *field)
+{
+    return field->desc.systems_m > 0 && !field->has_map
+               ? field->ground_radius_m / (CLOUD_SYSTEM_TILES * field->desc.systems_m)
+               : 0;
+}
+
+bool cloud_field_system_place(const struct cloud_field *field, size_t layer, struct vec3 position_m,
+                              double tiles[3])
+{
+    const double around = cloud_field_system_tiles(field);
+    const struct vec3 up = vec3_normalize(cloud_field_unturned(field, layer, position_m));
+    tiles[0] = around * up.x;
+    tiles[1] = around * up.y;
+    tiles[2] = around * CLOUD_SYSTEM_STRETCH * up.z;
+    return around > 0;
+}
+
 double cloud_field_cover(const struct cloud_field *field, size_t layer, struct vec3 position_m)
 {
     const struct cloud_layer *l = &field->desc.layers[layer];
     const struct vec3 up = vec3_normalize(position_m);
     double cover = l->cover * find_map(field, layer, position_m) *
                    find_belt(&l->belt, asin(fmax(-1, fmin(1, up.z))));
+    double tiles[3];
+    if (cloud_field_system_place(field, layer, position_m, tiles)) {
+        const double noise = cloud_volume_sample(&field->volume, tiles, 0).value;
+        cover = cloud_gathered_cover(cover, noise, noise);
+    }
     for (size_t i = 0; i < field->desc.cyclone_count; i++) {
         cover = cover_with(field, &field->desc.cyclones[i], up,
                            (const double[]){cover, l->cyclone_cover});

@@ -151,17 +151,19 @@ trl_result scene_read_clouds(const struct scene_node *root, struct trl_scene *ou
     if (!clouds.value) {
         return TRL_OK;
     }
-    const struct scene_number seed = {
-        "seed", {.min = 0, .max = 4294967295.0, .is_whole = true}, &out->clouds.seed};
+    const struct scene_number numbers[] = {
+        {"seed", {.min = 0, .max = 4294967295.0, .is_whole = true}, &out->clouds.seed},
+        {"systems_m", {.min = 0, .max = 1e8}, &out->clouds.systems_m}};
     const struct scene_node layers = scene_node_member(&clouds, "layers");
     const struct scene_node cyclones = scene_node_member(&clouds, "cyclones");
     const struct scene_node map = scene_node_member(&clouds, "map");
     const struct scene_node optional = scene_node_member(&clouds, "optional");
     bool is_optional = false;
     trl_result result = scene_node_check_keys(
-        &clouds, (const char *const[]){"layers", "cyclones", "map", "optional", "seed", NULL});
+        &clouds,
+        (const char *const[]){"layers", "cyclones", "map", "optional", "seed", "systems_m", NULL});
     if (result == TRL_OK) {
-        result = scene_read_numbers(&clouds, &seed, 1);
+        result = scene_read_numbers(&clouds, numbers, sizeof numbers / sizeof *numbers);
     }
     if (result == TRL_OK) {
         result = scene_node_bool_or(&optional, &is_optional);

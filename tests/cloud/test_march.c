@@ -126,6 +126,7 @@ static void the_gpu_s_field_is_the_cpu_s(void **state)
         // The place is in the bands of the cyclone.
         const struct cloud_desc desc = {.layer_count = 1,
                                         .seed = 5,
+                                        .systems_m = n == 2 ? 5e5 : 0,
                                         .layers = {LAYERS[n]},
                                         .cyclone_count = n == 0 ? 0 : 1,
                                         .cyclones = {{0.8, -0.7, 5e5, 2e4}}};

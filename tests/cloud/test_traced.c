@@ -190,6 +190,7 @@ static void the_bound_holds(void **state)
     const struct cloud_desc desc = {
         .layer_count = 4,
         .seed = 1,
+        .systems_m = 5e5,
         .layers = {{CLOUD_FOG, 0, 300, 0.6, 0.01, 5000, 0, 0, 0, CLOUD_EVERYWHERE},
                    {CLOUD_CUMULUS, 800, 2500, 0.5, 0.04, 8000, 0, 500, 0.9, CLOUD_EVERYWHERE},
                    {CLOUD_STRATUS, 3000, 3400, 0.7, 0.03, 16000, 5, 0, 0.9, {-0.5, 0.5, 0.3}},
