@@ -163,7 +163,7 @@ float cloud_level(CloudLayer layer, float width)
 // What a box whose side is a texel of a level of the noise stands for.
 struct CloudBox {
     float level, detail_level, field_level;
-    float spread, detail_spread; // of the noise in it
+    float spread, detail_spread; // of the noises in it
     float way;                   // through clouds and gaps, m
 };
 
@@ -174,7 +174,7 @@ CloudBox cloud_levels_box(CloudLayer layer, float level, float detail_level, flo
     box.detail_level = detail_level;
     box.field_level = max(field_level, 0.0);
     box.spread = cloud_spread(level);
-    box.detail_spread = layer.grain.z * cloud_spread(detail_level);
+    box.detail_spread = cloud_spread(detail_level);
     box.way = cloud_clump(layer.shell.y - layer.shell.x, 1.0 / layer.grain.x,
                           cloud_texel(layer) * exp2(level));
     return box;
@@ -212,19 +212,19 @@ float cloud_gathered(CloudLayer layer, vec3 place, float cover, CloudBox box)
     return cloud_gathered_cover(cover, noise, wide);
 }
 
-// x: the noise at a place, with the finer; y: its spread in the box.
-vec2 cloud_finer_noise(CloudLayer layer, CloudPlaces at, float noise, CloudBox box)
+// The noise at a place, with the finer.
+CloudNoise cloud_finer_noise(CloudLayer layer, CloudPlaces at, float noise, CloudBox box)
 {
     float finer = textureLod(u_cloud_noise, at.finer, box.detail_level).x;
-    float joint = cloud_joint_noise(noise, finer, layer.grain.z);
-    return vec2(joint, cloud_joint_spread(box.spread, box.detail_spread, joint));
+    return cloud_joint_noise(CloudNoise(noise, box.spread), CloudNoise(finer, box.detail_spread),
+                             layer.grain.z);
 }
 
 // The same by one look, for boxes so wide that the finer noise is the same in each.
-vec2 cloud_coarse_noise(CloudLayer layer, CloudPlaces at, CloudBox box)
+CloudNoise cloud_coarse_noise(CloudLayer layer, CloudPlaces at, CloudBox box)
 {
     float noise = textureLod(u_cloud_noise, at.noise, box.level).x;
-    return vec2(noise, cloud_joint_spread(box.spread, layer.grain.z * u_cloud_spread[7], noise));
+    return cloud_joint_noise(CloudNoise(noise, box.spread), CloudNoise(0.5, 0.5), layer.grain.z);
 }
 
 // What a place tells of itself and of what is around.
@@ -240,16 +240,21 @@ CloudLook cloud_look(CloudLayer layer, CloudPlaces at, float height, float cover
                      float rise, CloudBox box)
 {
     vec2 coarse = textureLod(u_cloud_noise, at.noise, box.level).xy;
-    vec2 noise = cloud_finer_noise(layer, at, coarse.x, box);
     float threshold = cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
-    float x = noise.x - threshold;
-    float density = cloud_density(x, noise.y, layer.form.z);
     CloudLook look;
-    look.extinction = cloud_extinction(density, cloud_part(x, noise.y), layer.grain.y, box.way);
-    look.missing = threshold - cloud_joint_noise(coarse.x, 1.0, layer.grain.z) - box.spread;
+    look.extinction = 0.0;
+    look.missing = threshold - cloud_most_noise(coarse.x, layer.grain.z) - box.spread;
+    // A loop, since branches save nothing.
+    for (int once = 0; once < (look.missing < 0.0 ? 1 : 0); once++) {
+        CloudNoise noise = cloud_finer_noise(layer, at, coarse.x, box);
+        float x = noise.value - threshold;
+        float density = cloud_density(x, noise.spread, layer.form.z);
+        look.extinction =
+            cloud_extinction(density, cloud_part(x, noise.spread), layer.grain.y, box.way);
+    }
     // The height that has most of the cover.
     float best = clamp(layer.shell.z, min(height, height + rise), max(height, height + rise));
-    look.is_near = cloud_joint_noise(coarse.y, 1.0, layer.grain.z) + box.spread >
+    look.is_near = cloud_most_noise(coarse.y, layer.grain.z) + box.spread >
                    cloud_threshold(most, cloud_height_signal(best, layer.shell.z));
     return look;
 }
@@ -258,10 +263,10 @@ CloudLook cloud_look(CloudLayer layer, CloudPlaces at, float height, float cover
 vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
     float height = cloud_height(layer, place);
-    vec2 noise = cloud_coarse_noise(layer, cloud_places(layer, place, height), box);
-    float x = noise.x - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
-    float density = cloud_density(x, noise.y, layer.form.z);
-    float part = cloud_part(x, noise.y);
+    CloudNoise noise = cloud_coarse_noise(layer, cloud_places(layer, place, height), box);
+    float x = noise.value - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    float density = cloud_density(x, noise.spread, layer.form.z);
+    float part = cloud_part(x, noise.spread);
     return vec2(cloud_extinction(density, part, layer.grain.y, box.way),
                 layer.grain.y * density / max(part, 1.0e-4));
 }
@@ -270,22 +275,23 @@ vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
 float cloud_coarse_density(CloudLayer layer, CloudPlaces at, float height, float cover,
                            CloudBox box)
 {
-    vec2 noise = cloud_coarse_noise(layer, at, box);
-    float x = noise.x - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
-    return cloud_density(x, noise.y, layer.form.z);
+    CloudNoise noise = cloud_coarse_noise(layer, at, box);
+    float x = noise.value - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    return cloud_density(x, noise.spread, layer.form.z);
 }
 
 // Extinction on a way that begins in cloud at the height `from_height`: as far as that cloud may
 // reach, of which `kept` is left, there are no gaps, which a wide box has, but where the cloud ends
 // above.
-float cloud_from_inside(CloudLayer layer, vec2 noise, float cover, float height, float from_height,
-                        float kept, CloudBox box)
+float cloud_from_inside(CloudLayer layer, CloudNoise noise, float cover, float height,
+                        float from_height, float kept, CloudBox box)
 {
-    float x = noise.x - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
-    float first = noise.x - cloud_threshold(cover, cloud_height_signal(from_height, layer.shell.z));
-    float density = cloud_density(x, noise.y, layer.form.z);
-    float part = cloud_part(x, noise.y);
-    float of_it = min(part / max(cloud_part(first, noise.y), 1.0e-4), 1.0);
+    float x = noise.value - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    float first =
+        noise.value - cloud_threshold(cover, cloud_height_signal(from_height, layer.shell.z));
+    float density = cloud_density(x, noise.spread, layer.form.z);
+    float part = cloud_part(x, noise.spread);
+    float of_it = min(part / max(cloud_part(first, noise.spread), 1.0e-4), 1.0);
     float met = mix(part, of_it, kept);
     return cloud_extinction(density / max(part, 1.0e-4) * met, met, layer.grain.y, box.way);
 }
@@ -323,9 +329,9 @@ float cloud_sun_depth(CloudLayer layer, vec3 place, CloudPlaces at, float cover,
         CloudBox box = cloud_whole_box(layer, level, rest - CLOUD_SUN_LOWER);
         CloudPlaces there = cloud_on_line(line, middle / max(reach, 1.0e-3));
         float high = cloud_height(layer, place + u_sun * middle);
-        vec2 noise = cloud_coarse_noise(layer, there, box);
+        CloudNoise noise = cloud_coarse_noise(layer, there, box);
         for (int once = 0; once < (i <= CLOUD_SUN_FINE_PLACES ? 1 : 0); once++) {
-            noise = cloud_finer_noise(layer, there, noise.x, box);
+            noise = cloud_finer_noise(layer, there, noise.value, box);
         }
         float kept = exp(-middle / box.way);
         sum += cloud_from_inside(layer, noise, cover, high, height, kept, box) * (to - from);

@@ -247,7 +247,7 @@ void main()
             float usual = max(max(texel, (far - near) / float(STEPS)),
                               min(4.0 * width, (far - near) / float(LEAST_STEPS)));
             CloudBox box =
-                cloud_whole_box(layer, cloud_level(layer, max(width, 0.25 * usual)), four.y);
+                cloud_whole_box(layer, cloud_level(layer, max(width, 0.125 * usual)), four.y);
             lighting.up = up;
             lighting.sun_mu = sun_mu;
             lighting.view_mu = dot(up, ray.direction);

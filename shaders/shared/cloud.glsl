@@ -80,16 +80,40 @@ SHARED_FN Length cloud_lag(Number height, Length shear)
     return shear * below * below;
 }
 
-// The noise with a share `weight` of the finer one, which moves no value out of [0, 1].
-SHARED_FN Number cloud_joint_noise(Number noise, Number finer, Number weight)
+// Noise in a box: its mean, and its spread around that.
+SHARED_STRUCT(CloudNoise)
 {
-    return noise + weight * (finer - 0.5) * 4.0 * noise * (1.0 - noise);
+    Number value, spread;
+};
+
+// How far apart the least and the most are that the finer noise makes of a value. What it makes
+// stays in order and in [0, 1], and is moved by as much at most values.
+SHARED_FN Number cloud_finer_range(Number noise, Number weight)
+{
+    return shared_min(weight, 2.0 * noise * (1.0 - noise));
 }
 
-// Their spread together, around that; values stay in [0, 1] here too.
-SHARED_FN Number cloud_joint_spread(Number spread, Number finer, Number joint)
+SHARED_FN Number cloud_most_noise(Number noise, Number weight)
 {
-    return shared_min(sqrt(spread * spread + finer * finer), shared_min(joint, 1.0 - joint));
+    return noise + 0.5 * cloud_finer_range(noise, weight);
+}
+
+// Both noises. The finer one is folded at its median, |2 n - 1|, which is as evenly distributed:
+// so surfaces are round outward with creases between, as heads of cumulus are. In a box where it is
+// even over +- s with the mean x, both after 2 n - 1, the mean of |x| is (x^2 + s^2) / (2 s) within
+// s of the crease, and that of x^2 is x^2 + s^2 / 3.
+SHARED_FN CloudNoise cloud_joint_noise(CloudNoise noise, CloudNoise finer, Number weight)
+{
+    Number x = shared_abs(2.0 * finer.value - 1.0);
+    Number s = shared_max(shared_min(2.0 * finer.spread, 1.0 - x), 1.0e-4);
+    Number folded = x > s ? x : (x * x + s * s) / (2.0 * s);
+    Number folded_spread2 = 3.0 * (x * x - folded * folded) + s * s;
+    Number range = cloud_finer_range(noise.value, weight);
+    CloudNoise joint;
+    joint.value = noise.value + (folded - 0.5) * range;
+    joint.spread = shared_min(sqrt(noise.spread * noise.spread + range * range * folded_spread2),
+                              shared_min(joint.value, 1.0 - joint.value));
+    return joint;
 }
 
 // How far clouds and gaps reach along a ray, in a layer of tiles of `scale`, where a box is wider:

@@ -143,14 +143,14 @@ double cloud_field_far_m(const struct cloud_field *field, struct vec3 position_m
 double cloud_field_detail(enum cloud_type type)
 {
     static const double weights[] = {
-        [CLOUD_CUMULUS] = 0.25, [CLOUD_STRATUS] = 0.15, [CLOUD_CIRRUS] = 0.5, [CLOUD_FOG] = 0.15};
+        [CLOUD_CUMULUS] = 0.2, [CLOUD_STRATUS] = 0.15, [CLOUD_CIRRUS] = 0.5, [CLOUD_FOG] = 0.15};
     return weights[type];
 }
 
 double cloud_field_edge(enum cloud_type type)
 {
     static const double edges[] = {
-        [CLOUD_CUMULUS] = 0.12, [CLOUD_STRATUS] = 0.12, [CLOUD_CIRRUS] = 0.5, [CLOUD_FOG] = 0.3};
+        [CLOUD_CUMULUS] = 0.08, [CLOUD_STRATUS] = 0.12, [CLOUD_CIRRUS] = 0.5, [CLOUD_FOG] = 0.3};
     return edges[type];
 }
 
@@ -186,6 +186,12 @@ struct vec3 cloud_field_unturned(const struct cloud_field *field, size_t layer,
                          position_m.z};
 }
 
+static CloudNoise look_at(const struct cloud_volume *volume, const double place[3], double level)
+{
+    return (CloudNoise){cloud_volume_sample(volume, place, level).value,
+                        cloud_volume_spread(volume, level)};
+}
+
 double cloud_field_extinction(const struct cloud_field *field, size_t layer, struct vec3 position_m,
                               double level)
 {
@@ -196,19 +202,15 @@ double cloud_field_extinction(const struct cloud_field *field, size_t layer, str
     if (signal <= 0) {
         return 0;
     }
-    const double weight = cloud_field_detail(l->type);
     const double finer_level = level + log(CLOUD_DETAIL_TILES) / log(2);
     const struct cloud_place place = cloud_field_place(field, layer, position_m);
-    const double noise = cloud_volume_sample(&field->volume, place.noise, level).value;
-    const double finer = cloud_volume_sample(&field->volume, place.finer, finer_level).value;
-    const double joint = cloud_joint_noise(noise, finer, weight);
-    const double spread =
-        cloud_joint_spread(cloud_volume_spread(&field->volume, level),
-                           weight * cloud_volume_spread(&field->volume, finer_level), joint);
+    const CloudNoise noise = cloud_joint_noise(look_at(&field->volume, place.noise, level),
+                                               look_at(&field->volume, place.finer, finer_level),
+                                               cloud_field_detail(l->type));
     const double cover = cloud_field_gathered(field, layer, position_m, level);
-    const double x = joint - cloud_threshold(cover, signal);
+    const double x = noise.value - cloud_threshold(cover, signal);
     const double way_m =
         cloud_clump(l->top_m - l->base_m, l->scale_m, l->scale_m / CLOUD_SIDE * exp2(level));
-    return cloud_extinction(cloud_density(x, spread, cloud_field_edge(l->type)),
-                            cloud_part(x, spread), l->extinction_per_m, way_m);
+    return cloud_extinction(cloud_density(x, noise.spread, cloud_field_edge(l->type)),
+                            cloud_part(x, noise.spread), l->extinction_per_m, way_m);
 }

@@ -103,7 +103,7 @@ static double layer_most(const struct cloud_field *field, size_t layer, struct v
     const double field_m = l->scale_m * CLOUD_FIELD_TILES;
     const double wide_m = l->scale_m * CLOUD_WIDE_TILES;
     const double noise = most_noise(field, cloud_field_place(field, layer, position_m).noise);
-    const double joint = cloud_joint_noise(noise, 1, cloud_field_detail(l->type));
+    const double joint = cloud_most_noise(noise, cloud_field_detail(l->type));
     const double cover = cloud_gathered_cover(
         most_cover(field, layer, position_m, *reach_m),
         most_wide_noise(field, cloud_field_bent(unturned_m, field_m), field_m),

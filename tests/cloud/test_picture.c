@@ -311,7 +311,7 @@ static void clouds_are_about_as_sharp_as_of_finer_pixels(void **state)
     assert_int_equal(trl_renderer_read_radiance(d.renderer, fine), TRL_OK);
     const double sharpness = edges(coarse, 1) / edges(fine, FINE);
     print_message("differences of neighbours are %.3f of those of fine pixels\n", sharpness);
-    assert_true(sharpness > 0.7 && sharpness < 1); // 0.67 without what join.frag sharpens
+    assert_true(sharpness > 0.56 && sharpness < 1); // 0.53 without what join.frag sharpens
     free(coarse);
     finish_drawer(&d);
 }

@@ -53,33 +53,33 @@ static double level_of(const struct sampler *s, double side_m)
     return log2(fmax(side_m / (s->layer->scale_m / CLOUD_SIDE), 1 / CLOUD_DETAIL_TILES));
 }
 
-// A box that is looked at: its noise over the threshold, with the spread of both noises.
+// A box that is looked at, with both noises.
 struct box {
-    double noise, spread, level;
+    CloudNoise noise;
+    double level;
 };
+
+static CloudNoise look_at(const struct cloud_volume *volume, const double place[3], double level)
+{
+    return (CloudNoise){cloud_volume_sample(volume, place, level).value,
+                        cloud_volume_spread(volume, level)};
+}
 
 static struct box look(const struct sampler *s, struct vec3 place, double side_m, bool is_fine)
 {
     const struct cloud_volume *volume = &s->field.volume;
-    const double weight = cloud_field_detail(s->layer->type);
     const double level = level_of(s, side_m);
-    const double finer_level = is_fine ? level + log2(CLOUD_DETAIL_TILES) : CLOUD_LEVELS - 1;
     const struct cloud_place at = cloud_field_place(&s->field, 0, place);
-    double noise = cloud_volume_sample(volume, at.noise, level).value;
-    if (is_fine) {
-        noise = cloud_joint_noise(noise, cloud_volume_sample(volume, at.finer, finer_level).value,
-                                  weight);
-    }
-    return (struct box){noise,
-                        cloud_joint_spread(cloud_volume_spread(volume, level),
-                                           weight * cloud_volume_spread(volume, finer_level),
-                                           noise),
+    const CloudNoise finer = is_fine ? look_at(volume, at.finer, level + log2(CLOUD_DETAIL_TILES))
+                                     : (CloudNoise){0.5, 0.5};
+    return (struct box){cloud_joint_noise(look_at(volume, at.noise, level), finer,
+                                          cloud_field_detail(s->layer->type)),
                         level};
 }
 
 static double beyond(const struct sampler *s, const struct box *box, double cover, double height)
 {
-    return box->noise -
+    return box->noise.value -
            cloud_threshold(cover, cloud_height_signal(height, cloud_field_peak(s->layer->type)));
 }
 
@@ -92,10 +92,10 @@ static double extinction_from_inside(const struct sampler *s, struct vec3 place,
                                      s->layer->scale_m / CLOUD_SIDE * exp2(box->level));
     const double x = beyond(s, box, cover, height_of(s, place));
     const double first = beyond(s, box, cover, from_height);
-    const double part = cloud_part(x, box->spread);
-    const double of_it = fmin(part / fmax(cloud_part(first, box->spread), 1e-4), 1);
+    const double part = cloud_part(x, box->noise.spread);
+    const double of_it = fmin(part / fmax(cloud_part(first, box->noise.spread), 1e-4), 1);
     const double met = part + (of_it - part) * exp(-along_m / way_m);
-    const double density = cloud_density(x, box->spread, cloud_field_edge(s->layer->type));
+    const double density = cloud_density(x, box->noise.spread, cloud_field_edge(s->layer->type));
     return cloud_extinction(density / fmax(part, 1e-4) * met, met, s->layer->extinction_per_m,
                             way_m);
 }
@@ -135,7 +135,7 @@ static double far_depth(const struct sampler *s, struct vec3 place, struct vec3 
 static double density_at(const struct sampler *s, struct vec3 place, double side_m, double cover)
 {
     const struct box box = look(s, place, side_m, false);
-    return cloud_density(beyond(s, &box, cover, height_of(s, place)), box.spread,
+    return cloud_density(beyond(s, &box, cover, height_of(s, place)), box.noise.spread,
                          cloud_field_edge(s->layer->type));
 }
 
