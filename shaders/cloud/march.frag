@@ -332,7 +332,7 @@ void main()
                 Air before = air_before(ray, at);
                 vec3 light = before.scattered;
 #ifdef MARCH
-                light *= share_before(uv, at);
+                light *= share_before(uv, ray, at);
 #endif
                 air += light * taken;
                 bands += (lights.sun * sum.sun + lights.above * sum.above +

@@ -170,22 +170,24 @@ static trl_result fit_maps(struct sky_march *m, const struct gpu_target *picture
     return result;
 }
 
-// From where the air begins to the farthest ground and clouds that can be seen.
+// From where a ray's air begins to the farthest ground and clouds that it can meet. Were steps
+// counted from an eye in space, rays side by side would enter the air at other parts of one, which
+// makes rings.
 static void find_range(struct sky_march *m, const struct sky_march_source *source,
                        const struct sky_view *view)
 {
     const double eye_m = sky_pixels_eye_radius(source->pixels, view->camera);
+    const double first_m = fmin(eye_m, m->top_radius_m);
     const double ground_m = m->ground_radius_m;
     const double peak_m = ground_m + fmax(fmax(view->shadow.highest_m, view->cloud_top_m), 0);
-    m->near_m = fmax(eye_m - m->top_radius_m, 0);
-    m->far_m = sqrt((eye_m - ground_m) * (eye_m + ground_m)) +
+    m->far_m = sqrt((first_m - ground_m) * (first_m + ground_m)) +
                sqrt((peak_m - ground_m) * (peak_m + ground_m)) + 1000;
 }
 
 static double layer_end(const struct sky_march *m, int layer)
 {
     const double x = (double)layer / MARCH_LAYERS;
-    return m->near_m + (m->far_m - m->near_m) * x * x;
+    return m->far_m * x * x;
 }
 
 static trl_result draw_begin(struct sky_march *m, const struct sky_march_source *source,
@@ -271,6 +273,6 @@ trl_result sky_march_draw(struct sky_march *m, const struct sky_march_source *so
 
 void sky_march_bind(const struct sky_march *m, struct gpu_program *program)
 {
-    sky_set_vec4(program, "u_march", m->near_m, m->far_m, MARCH_LAYERS, 0);
+    gpu_program_set_vec2(program, "u_march", (const float[]){(float)m->far_m, MARCH_LAYERS});
     gpu_program_set_texture(program, "u_share", &m->share);
 }

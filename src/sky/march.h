@@ -14,7 +14,7 @@
 //                                 the last layer is the whole way into space
 //          sums, steps            scratch
 //
-// Layers end at near + (far - near) (k / MARCH_LAYERS)^2.
+// Layers end at far (k / MARCH_LAYERS)^2 from where a ray's air begins.
 
 #include "sky/pixels.h"
 
@@ -30,7 +30,7 @@ struct sky_march {
     struct gpu_program begin, step, space, fill;
     struct gpu_texture lit[2], all[2], steps, share; // of the last picture's size
     struct gpu_target sums[2], layer;
-    double near_m, far_m;
+    double far_m;
 };
 
 // Nothing is made before the first picture.

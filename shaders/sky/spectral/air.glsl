@@ -35,7 +35,7 @@ uniform sampler2D u_phase; // sine of half the scattering angle x peaked constit
 #endif
 #ifdef MARCH
 uniform sampler3D u_share; // see sky/march.h
-uniform vec4 u_march;      // nearest and farthest distance, layers that end at a distance
+uniform vec2 u_march;      // farthest distance from where a ray's air begins; layers up to there
 #endif
 
 float azimuth_cosine(float mu, float sun_mu, float nu)
@@ -100,11 +100,11 @@ vec3 join_scattered(vec3 at, float nu)
 // How much of the light of the air is left by what stands before the star, of XYZ: up to a
 // distance, and of the whole way into space.
 #ifdef MARCH
-vec3 share_before(vec2 uv, float distance_m)
+vec3 share_before(vec2 uv, Ray ray, float distance_m)
 {
-    float place = sky_map_depth(distance_m, u_march.x, u_march.y) * u_march.z;
+    float place = sky_map_depth(distance_m - ray.begin_m, 0.0, u_march.x) * u_march.y;
     return textureLod(u_share,
-                      vec3(uv, clamp(place - 0.5, 0.5, u_march.z - 0.5) / (u_march.z + 1.0)), 0.0)
+                      vec3(uv, clamp(place - 0.5, 0.5, u_march.y - 0.5) / (u_march.y + 1.0)), 0.0)
         .xyz;
 }
 

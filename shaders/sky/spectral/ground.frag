@@ -153,7 +153,7 @@ void main()
 #endif
     Air air = air_before(ray, ground.distance_m);
 #ifdef MARCH
-    air.scattered *= share_before(v_uv, ground.distance_m);
+    air.scattered *= share_before(v_uv, ray, ground.distance_m);
 #endif
     Light light = light_ground(ray, ground, air);
     out_radiance = join_radiance(light.ground * air.transmittance + light.bounced, air.scattered);

@@ -30,7 +30,7 @@
 
 in vec2 v_uv;
 
-uniform vec2 u_step;     // from and to, m
+uniform vec2 u_step;     // from and to, m from where the ray's air begins
 uniform sampler2D u_lit; // sums so far; alpha: how far the ray is looked at
 uniform sampler2D u_all;
 uniform sampler3D u_source0; // as u_scattered0, but of each cell alone
@@ -47,7 +47,7 @@ uniform sampler3D u_source3;
 
 layout(location = 0) out vec4 out_lit;
 layout(location = 1) out vec4 out_all;
-layout(location = 2) out vec4 out_share; // of XYZ; alpha: as above
+layout(location = 2) out vec4 out_share; // of XYZ; alpha: as above, from where the air begins
 
 // The terrain's edge is looked for at this many places of a step; between them it is straight.
 const int SHADOW_PARTS = 4;
@@ -195,8 +195,8 @@ void main()
     vec4 lit = texelFetch(u_lit, ivec2(gl_FragCoord.xy), 0);
     vec3 all = texelFetch(u_all, ivec2(gl_FragCoord.xy), 0).xyz;
     float end = min(ray.end_m, lit.w);
-    float from = clamp(u_step.x, ray.begin_m, max(end, ray.begin_m));
-    float to = clamp(u_step.y, from, max(end, from));
+    float from = clamp(ray.begin_m + u_step.x, ray.begin_m, max(end, ray.begin_m));
+    float to = clamp(ray.begin_m + u_step.y, from, max(end, from));
     float azimuth = aerial_azimuth(ray);
     float row = aerial_row(ray);
 #ifdef TO_SPACE
@@ -230,5 +230,5 @@ void main()
     vec3 share =
         mix(lit.xyz / max(all, vec3(1.0e-30)), vec3(1.0), vec3(greaterThanEqual(lit.xyz, all)));
 #endif
-    out_share = vec4(share, lit.w);
+    out_share = vec4(share, lit.w - ray.begin_m);
 }

@@ -4,8 +4,8 @@
 // nearer, stands the mean of the rays around it that went on: what is beyond a ridge is not mixed
 // with what is before it.
 
-uniform sampler2D u_steps; // XYZ; alpha: how far the ray was looked at, m
-uniform float u_distance;  // from which the step goes, m
+uniform sampler2D u_steps; // XYZ; alpha: how far the ray was looked at, m from where its air begins
+uniform float u_distance;  // from which the step goes, m from there
 
 out vec4 out_share;
 
