@@ -20,6 +20,7 @@ uniform sampler2D u_slope;
 struct Lights {
     vec4 sun, above, below;
     vec4 slope; // see cloud_turn
+    vec4 level; // see cloud_level
 };
 
 // The layer's diffuse depth, at its cover.
@@ -28,7 +29,7 @@ float whole_depth(CloudLayer layer, float cover)
     return CLOUD_DIFFUSE_DEPTH * layer.grain.y * (layer.shell.y - layer.shell.x) * cover;
 }
 
-Lights lights_at(CloudLayer layer, vec3 place, float cover)
+Lights lights_at(vec3 place)
 {
     float altitude_m = cloud_altitude(place);
     vec3 up = normalize(u_eye_up * u_eye.x + place);
@@ -41,12 +42,11 @@ Lights lights_at(CloudLayer layer, vec3 place, float cover)
     float sun = sky_map_sunlight(sun_mu, lowest, u_ground_light.z);
     vec2 day = vec2(centre(sun_coordinate(sun_mu), u_light_texel.y), altitude);
     lights.sun = textureLod(u_sunlight, vec2(centre(sun, u_light_texel.x), altitude), 0.0);
-    float level = cloud_level_share(whole_depth(layer, cover));
-    vec4 even = exp(textureLod(u_evenness, day, 0.0) * level) * (1.0 / SHARED_PI);
-    vec4 above = exp(textureLod(u_skylight, day, 0.0));
-    lights.above = above * even;
-    lights.below = exp(textureLod(u_rising, day, 0.0)) * even;
-    lights.slope = above * textureLod(u_slope, day, 0.0) * (1.0 / SHARED_PI);
+    lights.above = exp(textureLod(u_skylight, day, 0.0)) * (1.0 / SHARED_PI);
+    lights.below = exp(textureLod(u_rising, day, 0.0)) * (1.0 / SHARED_PI);
+    lights.slope = lights.above * textureLod(u_slope, day, 0.0);
+    vec4 even = exp(textureLod(u_evenness, day, 0.0));
+    lights.level = 0.5 * (lights.above + lights.below) * (even - 1.0);
     return lights;
 }
 
@@ -55,6 +55,7 @@ Lights lights_at(CloudLayer layer, vec3 place, float cover)
 struct Shares {
     float sun, above, below;
     float turned; // of the slope
+    float level;
 };
 
 // Of one slice of a ray, for what is lit in it.
@@ -104,6 +105,7 @@ Shares shares_at(CloudLayer layer, vec3 place, CloudPlaces at, float cover, Ligh
                  cloud_several(around, lighting.phases.y, lighting.sun_mu, depth, far);
     shares.above = cloud_from_above(around, height, lighting.view_mu);
     shares.below = 1.0 - shares.above;
+    shares.level = cloud_level(lighting.view_mu, around.whole, depth);
     shares.turned = cloud_turn(lighting.toward, around.whole, depth);
     return shares;
 }

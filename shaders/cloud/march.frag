@@ -121,6 +121,7 @@ Lights lights_by_clouds(CloudLayer layer, Lights lights, vec3 place, float sun_m
     float passed = 1.0 - back * deck_below(texel.y, layer.shell.y);
     lights.above *= passed;
     lights.slope *= passed;
+    lights.level *= passed;
     return lights;
 }
 
@@ -265,7 +266,7 @@ void main()
             bool is_near = true;
             float left_before = left;
             float moment = 0.0; // of s
-            Shares sum = Shares(0.0, 0.0, 0.0, 0.0);
+            Shares sum = Shares(0.0, 0.0, 0.0, 0.0, 0.0);
             Span span = first_span(layer, ray, s, weather, box);
             for (int i = 0; i < 2 * STEPS; i++) {
                 // Through air and cloud until there is enough to be lit. Where nothing is skipped
@@ -316,6 +317,7 @@ void main()
                 sum.above += shares.above * weight;
                 sum.below += shares.below * weight;
                 sum.turned += shares.turned * weight;
+                sum.level += shares.level * weight;
                 moment += at * weight;
                 left -= weight;
             }
@@ -327,17 +329,17 @@ void main()
                 }
                 float at = moment / taken;
                 vec3 lit_at = ray.direction * at;
-                Lights lights = lights_by_clouds(layer, lights_at(layer, lit_at, weather), lit_at,
-                                                 max(sun_mu, 0.0));
+                Lights lights =
+                    lights_by_clouds(layer, lights_at(lit_at), lit_at, max(sun_mu, 0.0));
                 Air before = air_before(ray, at);
                 vec3 light = before.scattered;
 #ifdef MARCH
                 light *= share_before(uv, ray, at);
 #endif
                 air += light * taken;
-                bands += (lights.sun * sum.sun + lights.above * sum.above +
-                          lights.below * sum.below + lights.slope * sum.turned) *
-                         before.transmittance;
+                vec4 sky = lights.above * sum.above + lights.below * sum.below +
+                           lights.slope * sum.turned + lights.level * sum.level;
+                bands += (lights.sun * sum.sun + max(sky, 0.0)) * before.transmittance;
             }
             near = far;
         }

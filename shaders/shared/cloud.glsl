@@ -249,13 +249,14 @@ SHARED_FN Number cloud_turn(Number toward, Number whole, Number depth)
     return ahead + 0.062 / (1.0 + 0.151 * depth) - 0.035;
 }
 
-// Thin layers take light of all directions as it comes, the horizon's too; deep ones that of a
-// plane, as level light meets other clouds first. What is left of the difference, for a layer's
-// diffuse depth: paths that leave within 17 degrees of level are this part of the way from those of
-// a plane (0.09) to all (0.3) within 0.12 but in fog, 0.2, in the fields of tools/clouds.
-SHARED_FN Number cloud_level_share(Number whole)
+// A sky has more than two even halves and its slope, most of it about the horizon. Of that, as 1
+// in the mean of all directions, a place sends this to the eye: level views through thin layers see
+// the horizon ahead, steep ones do not; outer places of deep clouds meet it, inner ones have other
+// clouds there. Of sides only the star's are looked at.
+SHARED_FN Number cloud_level(Number view_mu, Number whole, Number depth)
 {
-    return 1.0 / (1.0 + whole);
+    Number ahead = 2.61 * exp(-2.5 * shared_abs(view_mu)) - 0.613;
+    return ahead / (1.0 + 1.4 * whole) + 0.286 / (1.0 + 0.202 * depth);
 }
 
 // A part of a step that is as dense all along, integrated: (1 - exp(-t)) / t, without cancellation.

@@ -163,9 +163,54 @@ static void a_flat_deck_is_as_bright_as_two_streams_say(void **state)
     }
 }
 
+// As bright as exp(-|mu| / 0.2), less what makes the flux through level ground 0, times what makes
+// the mean of all directions 1.
+static double horizon_at(double mu)
+{
+    const double width = 0.2, edge = exp(-1 / width);
+    const double mean = width * (1 - edge), flux = width * (width - (1 + width) * edge);
+    return (exp(-fabs(mu) / width) - 2 * flux) / (mean - 2 * flux);
+}
+
+// Where light that is scattered once into a view comes from, in the mean: its part along the
+// horizontal that the view points to, and how bright such a horizon is there.
+static void scatter_once(double view_mu, double *along, double *level)
+{
+    enum { RINGS = 400, AZIMUTHS = 60 };
+    const double pi = 180 * DEGREE, view_sine = sqrt(1 - view_mu * view_mu);
+    *along = *level = 0;
+    for (int i = 0; i < RINGS * AZIMUTHS; i++) {
+        const double angle = (i / AZIMUTHS + 0.5) / RINGS * pi;
+        const double around = (i % AZIMUTHS + 0.5) / AZIMUTHS * 2 * pi;
+        const double part =
+            cloud_phase(cos(angle), 1) * sin(angle) * 2 * pi * pi / ((double)RINGS * AZIMUTHS);
+        const double side = sin(angle) * cos(around);
+        *along += part * (cos(angle) * view_sine - side * view_mu);
+        *level += part * horizon_at(cos(angle) * view_mu + side * view_sine);
+    }
+}
+
+// Level ways are long in thin layers too, and further scatterings leave half of the horizon.
+static void thin_layers_send_on_what_is_ahead(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        const double view_mu = 0.1 * i + 0.05;
+        double along, level;
+        scatter_once(view_mu, &along, &level);
+        const double turned = cloud_turn(sqrt(1 - view_mu * view_mu), 0, 0);
+        const double horizon = cloud_level(view_mu, 0, 0);
+        print_message("sine %.2f: %.3f and %.3f along, %.2f and %.2f level\n", view_mu, turned,
+                      along, horizon, level);
+        assert_true(fabs(turned - along) < 0.05);
+        assert_true(horizon > 0.5 * level && horizon < level + 0.3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(thin_layers_send_on_what_is_ahead),
         cmocka_unit_test(cumulus_is_as_bright_as_paths_say),
         cmocka_unit_test(a_flat_deck_is_as_bright_as_paths_say),
         cmocka_unit_test(a_flat_deck_is_as_bright_as_two_streams_say)};

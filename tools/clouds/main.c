@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Finds the numbers of cloud_several, cloud_from_above and cloud_turn (shaders/shared/cloud.glsl)
-// from light by paths in seven kinds of layers, and says how far the laws as they stand are off in
-// fields that the numbers were not found in.
+// Finds the numbers of cloud_several, cloud_from_above, cloud_turn and cloud_level
+// (shaders/shared/cloud.glsl) from light by paths in seven kinds of layers, and says how far the
+// laws as they stand are off in fields that the numbers were not found in.
 //
 //     fit-clouds [PLACES [PATHS]]     of each of the layers; 400 and 64
 #include "fit.h"
@@ -115,6 +115,13 @@ static double turn_law(const double *n, const struct cloud_sample *s)
            n[1] / (1 + fabs(n[2]) * s->depth) - n[3];
 }
 
+static double level_law(const double *n, const struct cloud_sample *s)
+{
+    const double ahead = n[0] * exp(-2.5 * fabs(s->view_mu)) - n[1];
+    return s->level_mean *
+           (ahead / (1 + fabs(n[2]) * s->whole) + n[3] / (1 + fabs(n[4]) * s->depth));
+}
+
 static double once_as_it_stands(const double *n, const struct cloud_sample *s)
 {
     (void)n;
@@ -140,6 +147,12 @@ static double turn_as_it_stands(const double *n, const struct cloud_sample *s)
     return cloud_turn(s->toward, s->whole, s->depth);
 }
 
+static double level_as_it_stands(const double *n, const struct cloud_sample *s)
+{
+    (void)n;
+    return s->level_mean * cloud_level(s->view_mu, s->whole, s->depth);
+}
+
 static double once_of(const struct cloud_sample *s)
 {
     return s->once;
@@ -155,6 +168,10 @@ static double above_of(const struct cloud_sample *s)
 static double turned_of(const struct cloud_sample *s)
 {
     return s->turned;
+}
+static double level_of(const struct cloud_sample *s)
+{
+    return s->level;
 }
 
 static void print_fit(struct fit fit, const struct cloud_sample *samples, size_t count)
@@ -191,7 +208,8 @@ static void judge(const struct field *field, const struct cloud_sample *samples,
     const struct fit laws[] = {{"once", once_as_it_stands, once_of, 0, 0, {0}},
                                {"several", several_as_it_stands, several_of, 0, 0, {0}},
                                {"above", above_as_it_stands, above_of, 0, 0, {0}},
-                               {"turned", turn_as_it_stands, turned_of, 0, 0, {0}}};
+                               {"turned", turn_as_it_stands, turned_of, 0, 0, {0}},
+                               {"level", level_as_it_stands, level_of, 0, 0, {0}}};
     printf("%-12s cover %.2f%s", field->name, field->layer.cover,
            field->is_held ? ", held out:" : ":");
     for (size_t i = 0; i < sizeof laws / sizeof *laws; i++) {
@@ -200,13 +218,14 @@ static void judge(const struct field *field, const struct cloud_sample *samples,
     printf("\n");
 }
 
-static trl_result run(const trl_context *ctx, size_t places, size_t paths)
+static trl_result run(const trl_context *ctx, const struct cloud_sky *sky, size_t places,
+                      size_t paths)
 {
     struct cloud_sample *samples = malloc(FIELDS * places * sizeof *samples);
     trl_result result = samples ? TRL_OK : TRL_ERROR_MEMORY;
     size_t fitted = 0;
     for (int i = 0; i < FIELDS && result == TRL_OK; i++) {
-        const struct cloud_plan plan = {fields[i].layer, fields[i].seed, places, paths};
+        const struct cloud_plan plan = {fields[i].layer, fields[i].seed, places, paths, sky};
         result = cloud_samples_make(ctx, &plan, samples + (size_t)i * places);
         if (result == TRL_OK) {
             judge(&fields[i], samples + (size_t)i * places, places);
@@ -224,8 +243,11 @@ static trl_result run(const trl_context *ctx, size_t places, size_t paths)
         const struct fit above = {"cloud_from_above", above_law, above_of, 0.05, 3, {5, 1, 1}};
         print_fit(several, samples, fitted);
         const struct fit turn = {"cloud_turn", turn_law, turned_of, 1, 4, {2.6, 0.07, 0.15, 0.04}};
+        const struct fit level = {
+            "cloud_level", level_law, level_of, 1, 5, {2.6, 0.6, 1.5, 0.35, 0.3}};
         print_fit(above, samples, fitted);
         print_fit(turn, samples, fitted);
+        print_fit(level, samples, fitted);
     }
     free(samples);
     return result;
@@ -236,11 +258,15 @@ int main(int argc, char **argv)
     const long places = argc > 1 ? strtol(argv[1], NULL, 10) : 400;
     const long paths = argc > 2 ? strtol(argv[2], NULL, 10) : 64;
     const trl_context_desc desc = trl_context_desc_default();
+    static struct cloud_sky sky; // too large for a stack
     trl_context *ctx = NULL;
     trl_result result =
         places > 0 && paths > 1 ? trl_context_create(&desc, &ctx) : TRL_ERROR_INVALID;
     if (result == TRL_OK) {
-        result = run(ctx, (size_t)places, (size_t)paths);
+        result = cloud_sky_make(ctx, &sky);
+    }
+    if (result == TRL_OK) {
+        result = run(ctx, &sky, (size_t)places, (size_t)paths);
     }
     trl_context_destroy(&ctx);
     return result == TRL_OK ? EXIT_SUCCESS : EXIT_FAILURE;

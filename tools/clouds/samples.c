@@ -8,8 +8,6 @@
 #include <math.h>
 
 static const double radius_m = 6371000, pi = 3.14159265358979323846, far_m = 60000;
-static const double suns_deg[] = {3, 6, 12, 25, 45, 70};
-enum { SUNS = sizeof suns_deg / sizeof *suns_deg };
 
 // Of a path: orders that all look toward the star, and how often later ones do; up to which order
 // directions are also drawn around the star's, and how often.
@@ -24,6 +22,7 @@ struct sampler {
     struct cloud_field field;
     struct reference_clouds clouds;
     const struct cloud_layer *layer;
+    const struct cloud_sky *sky;
     double thick_m;
 };
 
@@ -166,6 +165,7 @@ static struct vec3 horizontal(struct vec3 up, struct vec3 sun)
 struct path {
     struct vec3 place, direction;
     double weight;
+    int sun; // of cloud_sky_suns_deg
 };
 
 static double starlight(const struct sampler *s, const struct path *path, struct vec3 sun,
@@ -200,7 +200,9 @@ static void follow(const struct sampler *s, struct path path, struct vec3 sun,
         if (isinf(met_m)) {
             const struct vec3 up = vec3_normalize(path.place);
             sum->above += vec3_dot(up, next) > 0 ? path.weight : 0;
-            sum->turned += path.weight * vec3_dot(horizontal(up, sun), next);
+            const double x = vec3_dot(horizontal(up, sun), next);
+            sum->turned += path.weight * x;
+            sum->level += path.weight * cloud_sky_rest(s->sky, path.sun, vec3_dot(up, next), x);
             return;
         }
         path.place = vec3_add(path.place, vec3_scale(next, met_m));
@@ -224,7 +226,7 @@ static struct path find_place(const struct sampler *s, struct random_stream *ran
         const double met_m = reference_clouds_meet(&s->clouds, &way, random);
         if (isfinite(met_m)) {
             return (struct path){vec3_add(way.from_m, vec3_scale(way.direction, met_m)),
-                                 way.direction, 1};
+                                 way.direction, 1, 0};
         }
     }
 }
@@ -237,15 +239,17 @@ static double error_of(double mean, double square, double paths)
 static void sample_place(const struct sampler *s, size_t paths, struct random_stream *random,
                          struct cloud_sample *out)
 {
-    const struct path path = find_place(s, random);
+    struct path path = find_place(s, random);
     const struct vec3 up = vec3_normalize(path.place);
-    const double elevation = suns_deg[(int)(SUNS * random_next(random))] * pi / 180;
+    path.sun = (int)(CLOUD_SKY_SUNS * random_next(random));
+    const double elevation = cloud_sky_suns_deg[path.sun] * pi / 180;
     const struct vec3 sun = draw_around(up, sin(elevation), random);
     *out = (struct cloud_sample){.sun_mu = sin(elevation),
                                  .view_mu = vec3_dot(up, path.direction),
                                  .nu = vec3_dot(sun, path.direction),
                                  .toward = vec3_dot(horizontal(up, sun), path.direction),
-                                 .height = height_of(s, path.place)};
+                                 .height = height_of(s, path.place),
+                                 .level_mean = s->sky->mean[path.sun]};
     double several2 = 0, above2 = 0;
     const double share = 1 / (double)paths;
     for (size_t i = 0; i < paths; i++) {
@@ -255,6 +259,7 @@ static void sample_place(const struct sampler *s, size_t paths, struct random_st
         out->several += one.several * share;
         out->above += one.above * share;
         out->turned += one.turned * share;
+        out->level += one.level * share;
         several2 += one.several * one.several * share;
         above2 += one.above * one.above * share;
     }
@@ -267,7 +272,8 @@ trl_result cloud_samples_make(const trl_context *ctx, const struct cloud_plan *p
                               struct cloud_sample *out)
 {
     const struct cloud_desc desc = {.layer_count = 1, .seed = plan->seed, .layers = {plan->layer}};
-    struct sampler s = {.layer = &plan->layer, .thick_m = plan->layer.top_m - plan->layer.base_m};
+    struct sampler s = {
+        .layer = &plan->layer, .sky = plan->sky, .thick_m = plan->layer.top_m - plan->layer.base_m};
     const trl_result result = cloud_field_init(ctx, &desc, radius_m, &s.field);
     if (result != TRL_OK) {
         return result;

@@ -4,6 +4,8 @@
 #define CLOUDS_SAMPLES_H
 // Light inside clouds by paths, at places where eyes see them, with what the march knows of these.
 
+#include "sky.h"
+
 #include "cloud/field.h"
 
 struct cloud_sample {
@@ -13,14 +15,16 @@ struct cloud_sample {
     double side, whole, around_above, around_below, cover; // as in CloudAround
     // Light toward the eye: of the star, scattered once, and more often with its error; the part of
     // an even sky's, the ground being black; that of light as bright as the part of a direction
-    // toward the star, from above and below.
-    double once, several, several_error, above, above_error, turned;
+    // toward the star, from above and below; what a sky has besides (see cloud_sky), and the mean
+    // of that over all directions.
+    double once, several, several_error, above, above_error, turned, level, level_mean;
 };
 
 struct cloud_plan {
     struct cloud_layer layer;
     uint32_t seed;
     size_t places, paths; // of each place
+    const struct cloud_sky *sky;
 };
 
 // `out` has room for all places.
