@@ -242,16 +242,12 @@ CloudLook cloud_look(CloudLayer layer, CloudPlaces at, float height, float cover
     vec2 coarse = textureLod(u_cloud_noise, at.noise, box.level).xy;
     float threshold = cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
     CloudLook look;
-    look.extinction = 0.0;
+    CloudNoise noise = cloud_finer_noise(layer, at, coarse.x, box);
+    float x = noise.value - threshold;
+    float density = cloud_density(x, noise.spread, layer.form.z);
+    look.extinction =
+        cloud_extinction(density, cloud_part(x, noise.spread), layer.grain.y, box.way);
     look.missing = threshold - cloud_most_noise(coarse.x, layer.grain.z) - box.spread;
-    // A loop, since branches save nothing.
-    for (int once = 0; once < (look.missing < 0.0 ? 1 : 0); once++) {
-        CloudNoise noise = cloud_finer_noise(layer, at, coarse.x, box);
-        float x = noise.value - threshold;
-        float density = cloud_density(x, noise.spread, layer.form.z);
-        look.extinction =
-            cloud_extinction(density, cloud_part(x, noise.spread), layer.grain.y, box.way);
-    }
     // The height that has most of the cover.
     float best = clamp(layer.shell.z, min(height, height + rise), max(height, height + rise));
     look.is_near = cloud_most_noise(coarse.y, layer.grain.z) + box.spread >
@@ -318,7 +314,8 @@ float cloud_sun_depth(CloudLayer layer, vec3 place, CloudPlaces at, float cover,
 {
     float reach = cloud_sun_reach(layer, sun_mu, height);
     vec3 end = place + u_sun * reach;
-    CloudLine line = cloud_line(layer, at, end, cloud_height(layer, end));
+    float end_height = cloud_height(layer, end);
+    CloudLine line = cloud_line(layer, at, end, end_height);
     float sum = 0.0;
     float from = 0.0;
     for (int i = 1; i <= CLOUD_SUN_PLACES; i++) {
@@ -327,8 +324,9 @@ float cloud_sun_depth(CloudLayer layer, vec3 place, CloudPlaces at, float cover,
         float middle = 0.5 * (from + to);
         float level = cloud_level(layer, max(CLOUD_SUN_BOX * (to - from), width));
         CloudBox box = cloud_whole_box(layer, level, rest - CLOUD_SUN_LOWER);
-        CloudPlaces there = cloud_on_line(line, middle / max(reach, 1.0e-3));
-        float high = cloud_height(layer, place + u_sun * middle);
+        float along = middle / max(reach, 1.0e-3);
+        CloudPlaces there = cloud_on_line(line, along);
+        float high = mix(height, end_height, along); // within a metre on this way
         CloudNoise noise = cloud_coarse_noise(layer, there, box);
         for (int once = 0; once < (i <= CLOUD_SUN_FINE_PLACES ? 1 : 0); once++) {
             noise = cloud_finer_noise(layer, there, noise.value, box);

@@ -20,7 +20,7 @@
 SHARED_FN Number cloud_height_signal(Number height, Number peak)
 {
     Number x = shared_clamp(height, 0.0, 1.0);
-    Number side = x < peak ? 1.0 - x / peak : (x - peak) / (1.0 - peak);
+    Number side = shared_abs(x - peak) / (x < peak ? peak : 1.0 - peak);
     return height < 0.0 ? 0.0 : 1.0 - side * side;
 }
 
