@@ -214,16 +214,16 @@ SHARED_FN Length cloud_side(Length thickness, Length scale)
 SHARED_FN Number cloud_several(CloudAround around, Number phase, Number sun_mu, Number depth,
                                Number far)
 {
-    Number enough = 1.0 - exp(-34.3 * around.side * (0.1 + around.above + around.below));
-    Number few = 0.787 * phase * enough * exp(-0.142 * depth - 0.813 * far);
+    Number enough = 1.0 - exp(-36.4 * around.side * (0.1 + around.above + around.below));
+    Number few = 0.744 * phase * enough * exp(-0.163 * depth - 0.753 * far);
     Number mu = shared_max(sun_mu, 0.02);
-    Number turned = around.side * (0.618 + 0.709 * around.below + 0.651 * around.above);
+    Number turned = around.side * (0.41 + 1.13 * around.below + 1.32 * around.above);
     Number closed2 = around.cover * around.cover;
     Number closed = closed2 * closed2 * closed2 * closed2;
-    Number lit = mu * (2.19 / (1.0 + 5.08 * mu) * (1.0 - closed) + 0.468 * closed);
-    Number wide = around.cover / (around.cover + 0.181);
+    Number lit = mu * (1.71 / (1.0 + 4.57 * mu) * (1.0 - closed) + 0.398 * closed);
+    Number wide = around.cover / (around.cover + 0.0768);
     Number many =
-        lit * wide * turned / (1.0 + turned) / (1.0 + 0.0616 * depth) * exp(-0.0445 * far);
+        lit * wide * turned / (1.0 + turned) / (1.0 + 0.0592 * depth) * exp(-0.0425 * far);
     return few + many;
 }
 
@@ -232,9 +232,9 @@ SHARED_FN Number cloud_several(CloudAround around, Number phase, Number sun_mu, 
 SHARED_FN Number cloud_from_above(CloudAround around, Number height, Number view_mu)
 {
     Number high = shared_clamp(height, 0.0, 1.0);
-    Number over = 5.22 * around.side * around.above + 1.39 * around.whole * (1.0 - high);
-    Number under = 5.22 * around.side * around.below + 1.39 * around.whole * high;
-    Number tilt = exp(1.88 * view_mu);
+    Number over = 4.48 * around.side * around.above + 1.03 * around.whole * (1.0 - high);
+    Number under = 4.48 * around.side * around.below + 1.03 * around.whole * high;
+    Number tilt = exp(1.61 * view_mu);
     return (tilt + under) / (tilt + 1.0 / tilt + over + under);
 }
 
