@@ -19,8 +19,8 @@ uniform sampler2D u_slope;
 // Of what lights clouds around a place, in the bands.
 struct Lights {
     vec4 sun, above, below;
-    vec4 slope; // see cloud_turn
-    vec4 level; // see cloud_level
+    vec4 slope;   // see cloud_turn
+    vec4 horizon; // see cloud_horizon
 };
 
 // The layer's diffuse depth, at its cover.
@@ -46,7 +46,7 @@ Lights lights_at(vec3 place)
     lights.below = exp(textureLod(u_rising, day, 0.0)) * (1.0 / SHARED_PI);
     lights.slope = lights.above * textureLod(u_slope, day, 0.0);
     vec4 even = exp(textureLod(u_evenness, day, 0.0));
-    lights.level = 0.5 * (lights.above + lights.below) * (even - 1.0);
+    lights.horizon = 0.5 * (lights.above + lights.below) * (even - 1.0);
     return lights;
 }
 
@@ -55,7 +55,7 @@ Lights lights_at(vec3 place)
 struct Shares {
     float sun, above, below;
     float turned; // of the slope
-    float level;
+    float horizon;
 };
 
 // Of one slice of a ray, for what is lit in it.
@@ -105,7 +105,7 @@ Shares shares_at(CloudLayer layer, vec3 place, CloudPlaces at, float cover, Ligh
                  cloud_several(around, lighting.phases.y, lighting.sun_mu, depth, far);
     shares.above = cloud_from_above(around, height, lighting.view_mu);
     shares.below = 1.0 - shares.above;
-    shares.level = cloud_level(lighting.view_mu, around.whole, depth);
+    shares.horizon = cloud_horizon(lighting.view_mu, around.whole, depth);
     shares.turned = cloud_turn(lighting.toward, around.whole, depth);
     return shares;
 }

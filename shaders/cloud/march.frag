@@ -121,7 +121,7 @@ Lights lights_by_clouds(CloudLayer layer, Lights lights, vec3 place, float sun_m
     float passed = 1.0 - back * deck_below(texel.y, layer.shell.y);
     lights.above *= passed;
     lights.slope *= passed;
-    lights.level *= passed;
+    lights.horizon *= passed;
     return lights;
 }
 
@@ -317,7 +317,7 @@ void main()
                 sum.above += shares.above * weight;
                 sum.below += shares.below * weight;
                 sum.turned += shares.turned * weight;
-                sum.level += shares.level * weight;
+                sum.horizon += shares.horizon * weight;
                 moment += at * weight;
                 left -= weight;
             }
@@ -338,7 +338,7 @@ void main()
 #endif
                 air += light * taken;
                 vec4 sky = lights.above * sum.above + lights.below * sum.below +
-                           lights.slope * sum.turned + lights.level * sum.level;
+                           lights.slope * sum.turned + lights.horizon * sum.horizon;
                 bands += (lights.sun * sum.sun + max(sky, 0.0)) * before.transmittance;
             }
             near = far;

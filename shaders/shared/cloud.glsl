@@ -253,7 +253,7 @@ SHARED_FN Number cloud_turn(Number toward, Number whole, Number depth)
 // in the mean of all directions, a place sends this to the eye: level views through thin layers see
 // the horizon ahead, steep ones do not; outer places of deep clouds meet it, inner ones have other
 // clouds there. Of sides only the star's are looked at.
-SHARED_FN Number cloud_level(Number view_mu, Number whole, Number depth)
+SHARED_FN Number cloud_horizon(Number view_mu, Number whole, Number depth)
 {
     Number ahead = 2.61 * exp(-2.5 * shared_abs(view_mu)) - 0.613;
     return ahead / (1.0 + 1.4 * whole) + 0.286 / (1.0 + 0.202 * depth);

@@ -186,10 +186,10 @@ struct vec3 cloud_field_unturned(const struct cloud_field *field, size_t layer,
                          position_m.z};
 }
 
-static CloudNoise look_at(const struct cloud_volume *volume, const double place[3], double level)
+CloudNoise cloud_field_noise(const struct cloud_field *field, const double place[3], double level)
 {
-    return (CloudNoise){cloud_volume_sample(volume, place, level).value,
-                        cloud_volume_spread(volume, level)};
+    return (CloudNoise){cloud_volume_sample(&field->volume, place, level).value,
+                        cloud_volume_spread(&field->volume, level)};
 }
 
 double cloud_field_extinction(const struct cloud_field *field, size_t layer, struct vec3 position_m,
@@ -204,8 +204,8 @@ double cloud_field_extinction(const struct cloud_field *field, size_t layer, str
     }
     const double finer_level = level + log(CLOUD_DETAIL_TILES) / log(2);
     const struct cloud_place place = cloud_field_place(field, layer, position_m);
-    const CloudNoise noise = cloud_joint_noise(look_at(&field->volume, place.noise, level),
-                                               look_at(&field->volume, place.finer, finer_level),
+    const CloudNoise noise = cloud_joint_noise(cloud_field_noise(field, place.noise, level),
+                                               cloud_field_noise(field, place.finer, finer_level),
                                                cloud_field_detail(l->type));
     const double cover = cloud_field_gathered(field, layer, position_m, level);
     const double x = noise.value - cloud_threshold(cover, signal);

@@ -9,6 +9,7 @@
 #include "cloud/cloud.h"
 #include "cloud/volume.h"
 #include "raster/grid.h"
+#include "shared/cloud.glsl"
 
 struct cloud_field {
     const trl_context *ctx;
@@ -55,6 +56,8 @@ struct cloud_place {
 };
 struct cloud_place cloud_field_place(const struct cloud_field *field, size_t layer,
                                      struct vec3 position_m);
+// The noise of a box around there whose side is a texel of the level.
+CloudNoise cloud_field_noise(const struct cloud_field *field, const double place[3], double level);
 // By at most how much noise moves faster than places do, away from the axis of fibres.
 double cloud_field_strain(const struct cloud_layer *layer);
 bool cloud_field_has_fibres(enum cloud_type type);

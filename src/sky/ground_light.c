@@ -91,14 +91,19 @@ static lanes side_light(const struct atmosphere *a, int side, struct light_place
     return ground * here / base;
 }
 
+static lanes moment_at(const struct moments *m, struct light_place at, int harmonic)
+{
+    const lanes below = moments_of(m, at.level, at.sun)[harmonic];
+    const lanes above = moments_of(m, at.level + 1, at.sun)[harmonic];
+    return below + (above - below) * at.part;
+}
+
 // The mean radiance of all directions is the first moment.
 static lanes mean_radiance(const struct moments *m, struct light_place at)
 {
-    const lanes below = moments_of(m, at.level, at.sun)[0];
-    const lanes above = moments_of(m, at.level + 1, at.sun)[0];
     double harmonic; // alike in all directions
     harmonic_values(0, 1, &harmonic);
-    return (below + (above - below) * at.part) * (float)harmonic;
+    return moment_at(m, at, 0) * (float)harmonic;
 }
 
 static lanes evenness(const struct atmosphere *a, struct light_place at)
@@ -111,10 +116,7 @@ static lanes evenness(const struct atmosphere *a, struct light_place at)
 // Toward the star's side. Of the harmonics all of a flux along x is sqrt(4 pi / 3) of (1, 1).
 static lanes flux_toward_star(const struct moments *m, struct light_place at)
 {
-    const int h = harmonic_index(1, 1);
-    const lanes below = moments_of(m, at.level, at.sun)[h];
-    const lanes above = moments_of(m, at.level + 1, at.sun)[h];
-    return (below + (above - below) * at.part) * (float)sqrt(4 * M_PI / 3);
+    return moment_at(m, at, harmonic_index(1, 1)) * (float)sqrt(4 * M_PI / 3);
 }
 
 // Light L s x of all directions has the flux 4 pi / 3 L s along x; half a sky of L sends pi L to
@@ -125,52 +127,55 @@ static lanes slope(const struct atmosphere *a, struct light_place at)
            lanes_max(side_light(a, 1, at), lanes_set(1e-30f));
 }
 
-void ground_light_slope(const struct atmosphere *a, double highest_m, float *texels)
+static lanes from_sky(const struct atmosphere *a, struct light_place at)
+{
+    return side_light(a, 1, at);
+}
+
+static lanes from_below(const struct atmosphere *a, struct light_place at)
+{
+    return side_light(a, -1, at);
+}
+
+typedef lanes light_at(const struct atmosphere *a, struct light_place at);
+
+static void store_map(const struct atmosphere *a, light_at *find, double highest_m, float *texels)
 {
     const struct moments *m = &a->solution.moments;
     for (int row = 0; row < GROUND_LIGHT_ALTITUDES; row++) {
         for (int i = 0; i < m->suns; i++) {
-            const lanes light = slope(a, place_of(m, altitude_of(row, highest_m), i));
+            const lanes light = find(a, place_of(m, altitude_of(row, highest_m), i));
             store(&a->bands, &light, texels + ((size_t)row * (size_t)m->suns + i) * BAND_COUNT);
         }
     }
 }
 
-// As logarithms.
-static void store_row(const struct atmosphere *a, double altitude_m, int side, float *texels)
+static void store_logarithms(const struct atmosphere *a, light_at *find, double highest_m,
+                             float *texels)
 {
-    const struct moments *m = &a->solution.moments;
-    for (int i = 0; i < m->suns; i++) {
-        const struct light_place at = place_of(m, altitude_m, i);
-        const lanes light = side ? side_light(a, side, at) : evenness(a, at);
-        float *texel = texels + (size_t)i * BAND_COUNT;
-        store(&a->bands, &light, texel);
-        for (int b = 0; b < BAND_COUNT; b++) {
-            texel[b] = logf(fmaxf(texel[b], 1e-30f));
-        }
-    }
-}
-
-// `side` 0 is for evenness.
-static void store_side(const struct atmosphere *a, int side, double highest_m, float *texels)
-{
-    for (int row = 0; row < GROUND_LIGHT_ALTITUDES; row++) {
-        const size_t size = (size_t)a->solution.moments.suns * BAND_COUNT;
-        store_row(a, altitude_of(row, highest_m), side, texels + (size_t)row * size);
+    store_map(a, find, highest_m, texels);
+    const size_t count = (size_t)GROUND_LIGHT_ALTITUDES * a->solution.moments.suns * BAND_COUNT;
+    for (size_t i = 0; i < count; i++) {
+        texels[i] = logf(fmaxf(texels[i], 1e-30f));
     }
 }
 
 void ground_light_of_sky(const struct atmosphere *a, double highest_m, float *texels)
 {
-    store_side(a, 1, highest_m, texels);
+    store_logarithms(a, from_sky, highest_m, texels);
 }
 
 void ground_light_from_below(const struct atmosphere *a, double highest_m, float *texels)
 {
-    store_side(a, -1, highest_m, texels);
+    store_logarithms(a, from_below, highest_m, texels);
 }
 
 void ground_light_evenness(const struct atmosphere *a, double highest_m, float *texels)
 {
-    store_side(a, 0, highest_m, texels);
+    store_logarithms(a, evenness, highest_m, texels);
+}
+
+void ground_light_slope(const struct atmosphere *a, double highest_m, float *texels)
+{
+    store_map(a, slope, highest_m, texels);
 }

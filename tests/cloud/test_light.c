@@ -199,7 +199,7 @@ static void thin_layers_send_on_what_is_ahead(void **state)
         double along, level;
         scatter_once(view_mu, &along, &level);
         const double turned = cloud_turn(sqrt(1 - view_mu * view_mu), 0, 0);
-        const double horizon = cloud_level(view_mu, 0, 0);
+        const double horizon = cloud_horizon(view_mu, 0, 0);
         print_message("sine %.2f: %.3f and %.3f along, %.2f and %.2f level\n", view_mu, turned,
                       along, horizon, level);
         assert_true(fabs(turned - along) < 0.05);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Finds the numbers of cloud_several, cloud_from_above, cloud_turn and cloud_level
+// Finds the numbers of cloud_several, cloud_from_above, cloud_turn and cloud_horizon
 // (shaders/shared/cloud.glsl) from light by paths in seven kinds of layers, and says how far the
 // laws as they stand are off in fields that the numbers were not found in.
 //
@@ -150,7 +150,7 @@ static double turn_as_it_stands(const double *n, const struct cloud_sample *s)
 static double level_as_it_stands(const double *n, const struct cloud_sample *s)
 {
     (void)n;
-    return s->level_mean * cloud_level(s->view_mu, s->whole, s->depth);
+    return s->level_mean * cloud_horizon(s->view_mu, s->whole, s->depth);
 }
 
 static double once_of(const struct cloud_sample *s)
@@ -243,8 +243,8 @@ static trl_result run(const trl_context *ctx, const struct cloud_sky *sky, size_
         const struct fit above = {"cloud_from_above", above_law, above_of, 0.05, 3, {5, 1, 1}};
         print_fit(several, samples, fitted);
         const struct fit turn = {"cloud_turn", turn_law, turned_of, 1, 4, {2.6, 0.07, 0.15, 0.04}};
-        const struct fit level = {
-            "cloud_level", level_law, level_of, 1, 5, {2.6, 0.6, 1.5, 0.35, 0.3}};
+        const struct fit level = {"cloud_horizon",           level_law, level_of, 1, 5,
+                                  {2.6, 0.6, 1.5, 0.35, 0.3}};
         print_fit(above, samples, fitted);
         print_fit(turn, samples, fitted);
         print_fit(level, samples, fitted);

@@ -58,20 +58,14 @@ struct box {
     double level;
 };
 
-static CloudNoise look_at(const struct cloud_volume *volume, const double place[3], double level)
-{
-    return (CloudNoise){cloud_volume_sample(volume, place, level).value,
-                        cloud_volume_spread(volume, level)};
-}
-
 static struct box look(const struct sampler *s, struct vec3 place, double side_m, bool is_fine)
 {
-    const struct cloud_volume *volume = &s->field.volume;
     const double level = level_of(s, side_m);
     const struct cloud_place at = cloud_field_place(&s->field, 0, place);
-    const CloudNoise finer = is_fine ? look_at(volume, at.finer, level + log2(CLOUD_DETAIL_TILES))
-                                     : (CloudNoise){0.5, 0.5};
-    return (struct box){cloud_joint_noise(look_at(volume, at.noise, level), finer,
+    const CloudNoise finer =
+        is_fine ? cloud_field_noise(&s->field, at.finer, level + log2(CLOUD_DETAIL_TILES))
+                : (CloudNoise){0.5, 0.5};
+    return (struct box){cloud_joint_noise(cloud_field_noise(&s->field, at.noise, level), finer,
                                           cloud_field_detail(s->layer->type)),
                         level};
 }
