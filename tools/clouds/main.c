@@ -115,10 +115,10 @@ static double turn_law(const double *n, const struct cloud_sample *s)
            n[1] / (1 + fabs(n[2]) * s->depth) - n[3];
 }
 
-static double level_law(const double *n, const struct cloud_sample *s)
+static double horizon_law(const double *n, const struct cloud_sample *s)
 {
     const double ahead = n[0] * exp(-2.5 * fabs(s->view_mu)) - n[1];
-    return s->level_mean *
+    return s->horizon_mean *
            (ahead / (1 + fabs(n[2]) * s->whole) + n[3] / (1 + fabs(n[4]) * s->depth));
 }
 
@@ -147,10 +147,10 @@ static double turn_as_it_stands(const double *n, const struct cloud_sample *s)
     return cloud_turn(s->toward, s->whole, s->depth);
 }
 
-static double level_as_it_stands(const double *n, const struct cloud_sample *s)
+static double horizon_as_it_stands(const double *n, const struct cloud_sample *s)
 {
     (void)n;
-    return s->level_mean * cloud_horizon(s->view_mu, s->whole, s->depth);
+    return s->horizon_mean * cloud_horizon(s->view_mu, s->whole, s->depth);
 }
 
 static double once_of(const struct cloud_sample *s)
@@ -169,9 +169,9 @@ static double turned_of(const struct cloud_sample *s)
 {
     return s->turned;
 }
-static double level_of(const struct cloud_sample *s)
+static double horizon_of(const struct cloud_sample *s)
 {
-    return s->level;
+    return s->horizon;
 }
 
 static void print_fit(struct fit fit, const struct cloud_sample *samples, size_t count)
@@ -209,7 +209,7 @@ static void judge(const struct field *field, const struct cloud_sample *samples,
                                {"several", several_as_it_stands, several_of, 0, 0, {0}},
                                {"above", above_as_it_stands, above_of, 0, 0, {0}},
                                {"turned", turn_as_it_stands, turned_of, 0, 0, {0}},
-                               {"level", level_as_it_stands, level_of, 0, 0, {0}}};
+                               {"level", horizon_as_it_stands, horizon_of, 0, 0, {0}}};
     printf("%-12s cover %.2f%s", field->name, field->layer.cover,
            field->is_held ? ", held out:" : ":");
     for (size_t i = 0; i < sizeof laws / sizeof *laws; i++) {
@@ -243,11 +243,11 @@ static trl_result run(const trl_context *ctx, const struct cloud_sky *sky, size_
         const struct fit above = {"cloud_from_above", above_law, above_of, 0.05, 3, {5, 1, 1}};
         print_fit(several, samples, fitted);
         const struct fit turn = {"cloud_turn", turn_law, turned_of, 1, 4, {2.6, 0.07, 0.15, 0.04}};
-        const struct fit level = {"cloud_horizon",           level_law, level_of, 1, 5,
-                                  {2.6, 0.6, 1.5, 0.35, 0.3}};
+        const struct fit horizon = {"cloud_horizon",           horizon_law, horizon_of, 1, 5,
+                                    {2.6, 0.6, 1.5, 0.35, 0.3}};
         print_fit(above, samples, fitted);
         print_fit(turn, samples, fitted);
-        print_fit(level, samples, fitted);
+        print_fit(horizon, samples, fitted);
     }
     free(samples);
     return result;

@@ -196,7 +196,7 @@ static void follow(const struct sampler *s, struct path path, struct vec3 sun,
             sum->above += vec3_dot(up, next) > 0 ? path.weight : 0;
             const double x = vec3_dot(horizontal(up, sun), next);
             sum->turned += path.weight * x;
-            sum->level += path.weight * cloud_sky_rest(s->sky, path.sun, vec3_dot(up, next), x);
+            sum->horizon += path.weight * cloud_sky_rest(s->sky, path.sun, vec3_dot(up, next), x);
             return;
         }
         path.place = vec3_add(path.place, vec3_scale(next, met_m));
@@ -243,7 +243,7 @@ static void sample_place(const struct sampler *s, size_t paths, struct random_st
                                  .nu = vec3_dot(sun, path.direction),
                                  .toward = vec3_dot(horizontal(up, sun), path.direction),
                                  .height = height_of(s, path.place),
-                                 .level_mean = s->sky->mean[path.sun]};
+                                 .horizon_mean = s->sky->mean[path.sun]};
     double several2 = 0, above2 = 0;
     const double share = 1 / (double)paths;
     for (size_t i = 0; i < paths; i++) {
@@ -253,7 +253,7 @@ static void sample_place(const struct sampler *s, size_t paths, struct random_st
         out->several += one.several * share;
         out->above += one.above * share;
         out->turned += one.turned * share;
-        out->level += one.level * share;
+        out->horizon += one.horizon * share;
         several2 += one.several * one.several * share;
         above2 += one.above * one.above * share;
     }

@@ -17,7 +17,7 @@ struct cloud_sample {
     // an even sky's, the ground being black; that of light as bright as the part of a direction
     // toward the star, from above and below; what a sky has besides (see cloud_sky), and the mean
     // of that over all directions.
-    double once, several, several_error, above, above_error, turned, level, level_mean;
+    double once, several, several_error, above, above_error, turned, horizon, horizon_mean;
 };
 
 struct cloud_plan {
