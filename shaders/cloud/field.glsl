@@ -79,13 +79,16 @@ vec3 cloud_bent(vec3 place, vec3 phase, float scale)
     return place + sin(phase + turned * wave) * (CLOUD_BEND / scale);
 }
 
-// Where the noise and the finer one are looked at for a place, in tiles. As cloud_field_place.
+// Where the noise and the finer one are looked at for a place, in tiles, and its height. As
+// cloud_field_place.
 struct CloudPlaces {
     vec3 noise, finer;
+    float height;
 };
 
-CloudPlaces cloud_places(CloudLayer layer, vec3 place, float height)
+CloudPlaces cloud_places(CloudLayer layer, vec3 place)
 {
+    float height = cloud_height(layer, place);
     vec3 unturned = cloud_unturned(layer, place);
     // Loops, since branches save nothing.
     for (int once = 0; once < (layer.form.y != 0.0 ? 1 : 0); once++) {
@@ -96,6 +99,7 @@ CloudPlaces cloud_places(CloudLayer layer, vec3 place, float height)
     vec3 bent = cloud_bent(unturned, layer.bend, layer.grain.x);
     float finer = layer.grain.x * CLOUD_DETAIL_TILES;
     CloudPlaces places;
+    places.height = height;
     places.noise = layer.anchor + bent * layer.grain.x;
     places.finer = layer.detail_anchor + bent * finer;
     for (int once = 0; once < (layer.form.x > 0.0 ? 1 : 0); once++) {
@@ -109,18 +113,20 @@ CloudPlaces cloud_places(CloudLayer layer, vec3 place, float height)
 }
 
 // The same along a straight line. Bends are so long that in a tile noise moves by a thirtieth of
-// one from between those of both ends, and in a third of one by a third of a texel.
+// one from between those of both ends, and in a third of one by a third of a texel. Heights are
+// above those between by the square of the length over 8 radii of the planet.
 struct CloudLine {
     CloudPlaces first, way;
 };
 
-CloudLine cloud_line(CloudLayer layer, CloudPlaces first, vec3 end, float height)
+CloudLine cloud_line(CloudLayer layer, CloudPlaces first, vec3 end)
 {
-    CloudPlaces last = cloud_places(layer, end, height);
+    CloudPlaces last = cloud_places(layer, end);
     CloudLine line;
     line.first = first;
     line.way.noise = last.noise - first.noise;
     line.way.finer = last.finer - first.finer;
+    line.way.height = last.height - first.height;
     // Fibres go once around; whole tiles do not count.
     float around = 2.0 * SHARED_PI * layer.form.x;
     float turned = floor(line.way.noise.z / max(around, 1.0e-3) + 0.5) * around;
@@ -135,6 +141,7 @@ CloudPlaces cloud_on_line(CloudLine line, float part)
     CloudPlaces places;
     places.noise = line.first.noise + line.way.noise * part;
     places.finer = line.first.finer + line.way.finer * part;
+    places.height = line.first.height + line.way.height * part;
     return places;
 }
 
@@ -236,9 +243,10 @@ struct CloudLook {
 
 // `most` is the largest cover around; along the ray a border's length rises by `rise` heights of
 // the layer.
-CloudLook cloud_look(CloudLayer layer, CloudPlaces at, float height, float cover, float most,
-                     float rise, CloudBox box)
+CloudLook cloud_look(CloudLayer layer, CloudPlaces at, float cover, float most, float rise,
+                     CloudBox box)
 {
+    float height = at.height;
     vec2 coarse = textureLod(u_cloud_noise, at.noise, box.level).xy;
     float threshold = cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
     CloudLook look;
@@ -258,9 +266,9 @@ CloudLook cloud_look(CloudLayer layer, CloudPlaces at, float height, float cover
 // By one look. x: mean extinction; y: where there is cloud in the box.
 vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
 {
-    float height = cloud_height(layer, place);
-    CloudNoise noise = cloud_coarse_noise(layer, cloud_places(layer, place, height), box);
-    float x = noise.value - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    CloudPlaces at = cloud_places(layer, place);
+    CloudNoise noise = cloud_coarse_noise(layer, at, box);
+    float x = noise.value - cloud_threshold(cover, cloud_height_signal(at.height, layer.shell.z));
     float density = cloud_density(x, noise.spread, layer.form.z);
     float part = cloud_part(x, noise.spread);
     return vec2(cloud_extinction(density, part, layer.grain.y, box.way),
@@ -268,26 +276,23 @@ vec2 cloud_coarse(CloudLayer layer, vec3 place, float cover, CloudBox box)
 }
 
 // The mean density in a box, by one look.
-float cloud_coarse_density(CloudLayer layer, CloudPlaces at, float height, float cover,
-                           CloudBox box)
+float cloud_coarse_density(CloudLayer layer, CloudPlaces at, float cover, CloudBox box)
 {
     CloudNoise noise = cloud_coarse_noise(layer, at, box);
-    float x = noise.value - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
+    float x = noise.value - cloud_threshold(cover, cloud_height_signal(at.height, layer.shell.z));
     return cloud_density(x, noise.spread, layer.form.z);
 }
 
-// Extinction on a way that begins in cloud at the height `from_height`: as far as that cloud may
-// reach, of which `kept` is left, there are no gaps, which a wide box has, but where the cloud ends
-// above.
-float cloud_from_inside(CloudLayer layer, CloudNoise noise, float cover, float height,
-                        float from_height, float kept, CloudBox box)
+// Extinction on a way that begins in cloud where noise above `first` is cloud, as that above `here`
+// is here: as far as that cloud may reach, of which `kept` is left, there are no gaps, which a wide
+// box has, but where the cloud ends above.
+float cloud_from_inside(CloudLayer layer, CloudNoise noise, float here, float first, float kept,
+                        CloudBox box)
 {
-    float x = noise.value - cloud_threshold(cover, cloud_height_signal(height, layer.shell.z));
-    float first =
-        noise.value - cloud_threshold(cover, cloud_height_signal(from_height, layer.shell.z));
+    float x = noise.value - here;
     float density = cloud_density(x, noise.spread, layer.form.z);
     float part = cloud_part(x, noise.spread);
-    float of_it = min(part / max(cloud_part(first, noise.spread), 1.0e-4), 1.0);
+    float of_it = min(part / max(cloud_part(noise.value - first, noise.spread), 1.0e-4), 1.0);
     float met = mix(part, of_it, kept);
     return cloud_extinction(density / max(part, 1.0e-4) * met, met, layer.grain.y, box.way);
 }
@@ -310,12 +315,11 @@ float cloud_sun_reach(CloudLayer layer, float sun_mu, float height)
 // `at` is where the noise is for the place, `width` that of a pixel there, `rest` as in
 // cloud_whole_box.
 float cloud_sun_depth(CloudLayer layer, vec3 place, CloudPlaces at, float cover, float sun_mu,
-                      float height, float width, float rest)
+                      float width, float rest)
 {
-    float reach = cloud_sun_reach(layer, sun_mu, height);
-    vec3 end = place + u_sun * reach;
-    float end_height = cloud_height(layer, end);
-    CloudLine line = cloud_line(layer, at, end, end_height);
+    float reach = cloud_sun_reach(layer, sun_mu, at.height);
+    CloudLine line = cloud_line(layer, at, place + u_sun * reach);
+    float first = cloud_threshold(cover, cloud_height_signal(at.height, layer.shell.z));
     float sum = 0.0;
     float from = 0.0;
     for (int i = 1; i <= CLOUD_SUN_PLACES; i++) {
@@ -324,15 +328,14 @@ float cloud_sun_depth(CloudLayer layer, vec3 place, CloudPlaces at, float cover,
         float middle = 0.5 * (from + to);
         float level = cloud_level(layer, max(CLOUD_SUN_BOX * (to - from), width));
         CloudBox box = cloud_whole_box(layer, level, rest - CLOUD_SUN_LOWER);
-        float along = middle / max(reach, 1.0e-3);
-        CloudPlaces there = cloud_on_line(line, along);
-        float high = mix(height, end_height, along); // within a metre on this way
+        CloudPlaces there = cloud_on_line(line, middle / max(reach, 1.0e-3));
         CloudNoise noise = cloud_coarse_noise(layer, there, box);
         for (int once = 0; once < (i <= CLOUD_SUN_FINE_PLACES ? 1 : 0); once++) {
             noise = cloud_finer_noise(layer, there, noise.value, box);
         }
         float kept = exp(-middle / box.way);
-        sum += cloud_from_inside(layer, noise, cover, high, height, kept, box) * (to - from);
+        float here = cloud_threshold(cover, cloud_height_signal(there.height, layer.shell.z));
+        sum += cloud_from_inside(layer, noise, here, first, kept, box) * (to - from);
         from = to;
     }
     return sum;

@@ -80,30 +80,29 @@ float far_depth(CloudLayer layer, vec3 place, float sun_mu, float height)
     return texel.x * below * sqrt(below);
 }
 
-// `at` is where the noise is for the place.
+// `at` is where the noise is for the place, which may lie beyond the line that has said so: there
+// heights on it are too far off.
 Shares shares_at(CloudLayer layer, vec3 place, CloudPlaces at, float cover, Lighting lighting)
 {
-    float height = cloud_height(layer, place);
-    float depth = cloud_sun_depth(layer, place, at, cover, lighting.sun_mu, height, lighting.width,
-                                  lighting.rest);
-    float far = far_depth(layer, place, lighting.sun_mu, height);
+    at.height = clamp(cloud_height(layer, place), 0.0, 1.0);
+    float depth =
+        cloud_sun_depth(layer, place, at, cover, lighting.sun_mu, lighting.width, lighting.rest);
+    float far = far_depth(layer, place, lighting.sun_mu, at.height);
     // How dense it is above and below, each by one look.
     float thick_m = layer.shell.y - layer.shell.x;
     float side_m = cloud_side(thick_m, 1.0 / layer.grain.x);
     CloudBox box = cloud_whole_box(layer, cloud_level(layer, max(side_m, lighting.width)), 0.5);
-    float rise = side_m / thick_m;
-    CloudLine line = cloud_line(layer, at, place + lighting.up * side_m, height + rise);
+    CloudLine line = cloud_line(layer, at, place + lighting.up * side_m);
     CloudAround around;
     around.side = CLOUD_DIFFUSE_DEPTH * layer.grain.y * side_m;
     around.whole = whole_depth(layer, cover);
     around.cover = cover;
-    around.above = cloud_coarse_density(layer, cloud_on_line(line, 1.0), height + rise, cover, box);
-    around.below =
-        cloud_coarse_density(layer, cloud_on_line(line, -1.0), height - rise, cover, box);
+    around.above = cloud_coarse_density(layer, cloud_on_line(line, 1.0), cover, box);
+    around.below = cloud_coarse_density(layer, cloud_on_line(line, -1.0), cover, box);
     Shares shares;
     shares.sun = lighting.phases.x * exp(-depth - far) +
                  cloud_several(around, lighting.phases.y, lighting.sun_mu, depth, far);
-    shares.above = cloud_from_above(around, height, lighting.view_mu);
+    shares.above = cloud_from_above(around, at.height, lighting.view_mu);
     shares.below = 1.0 - shares.above;
     shares.horizon = cloud_horizon(lighting.view_mu, around.whole, depth);
     shares.turned = cloud_turn(lighting.toward, around.whole, depth);

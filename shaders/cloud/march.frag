@@ -34,14 +34,21 @@ uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, o
 layout(location = 0) out vec4 out_clouds;
 layout(location = 1) out float out_distance; // logarithm of the mean one of what is seen, m
 
-const int SLICES = 24; // at most, of a layer along a part of the ray
-const float GROWTH = 0.2;
-const int STEPS = 12; // at most, in a slice
-const int LEAST_STEPS = 4;
+const int SLICES = 16;            // at most, of a layer along a part of the ray
+const float GROWTH = 0.333;       // of the distance, as long as a slice is
+const float LEAST_SLICE = 16.0;   // texels, but no shorter
+const float STEPS = 16.0;         // in a slice
+const float NEAR_STEPS = 24.0;    // in one that begins before NEAR, where surfaces are seen
+const float NEAR = 80.0;          // texels; from twice that it is STEPS
+const float LEAST_STEP = 0.4;     // texels
+const float PART_STEPS = 12.0;    // at least, in all slices of a thick layer
+const float LEAST_STEPS = 6.0;    // in a slice of one that pixels do not resolve
+const int PLACES = 24;            // at most, in a slice, that are lit
+const int LOOKS = 60;             // at most, between those
 const int COVER_STEPS = 6;        // between looks at the fields of clouds
 const float OPAQUE = 0.04;        // what is behind counts as what is before
-const float STEP_DEPTH = 0.5;     // of cloud that is lit as one place, where nothing is before it
-const float LONG_DEPTH = 0.3;     // at most, of a usual step
+const float STEP_DEPTH = 0.75;    // of cloud that is lit as one place, where nothing is before it
+const float LONG_DEPTH = 0.45;    // at most, of a usual step
 const float SHORT = 0.3;          // of a usual step, the shortest
 const float STEEPEST = 10.0;      // texels in which noise hardly changes by more than 1
 const float LEAST_DEPTH = 1.0e-4; // of what counts as cloud
@@ -141,9 +148,10 @@ Span first_span(CloudLayer layer, Ray ray, float to, float weather, CloudBox box
     span.to = to;
     span.first = 0.0;
     span.last = 0.0;
-    span.line.first = cloud_places(layer, place, cloud_height(layer, place));
+    span.line.first = cloud_places(layer, place);
     span.line.way.noise = vec3(0.0);
     span.line.way.finer = vec3(0.0);
+    span.line.way.height = 0.0;
     for (int once = 0; once < (weather > LEAST_COVER ? 1 : 0); once++) {
         span.last = cloud_gathered(layer, place, weather, box);
     }
@@ -158,8 +166,7 @@ Span next_span(CloudLayer layer, Ray ray, Span before, float to, float weather, 
     span.to = to;
     span.first = before.last;
     span.last = cloud_gathered(layer, place, weather, box);
-    span.line =
-        cloud_line(layer, cloud_on_line(before.line, 1.0), place, cloud_height(layer, place));
+    span.line = cloud_line(layer, cloud_on_line(before.line, 1.0), place);
     return span;
 }
 
@@ -171,6 +178,16 @@ float part_at(Span span, float at)
 CloudPlaces places_at(Span span, float at)
 {
     return cloud_on_line(span.line, part_at(span, at));
+}
+
+// The usual step in a slice that begins at `near`, m: seen from near, what is lit must not jump
+// from ray to ray. `width` is that of a pixel there: up to four are one step.
+float find_step(Part part, float near, float slice_m, float texel, float width)
+{
+    float steps = mix(NEAR_STEPS, STEPS, clamp(near / (NEAR * texel) - 1.0, 0.0, 1.0));
+    float step_m = min(GROWTH * near / steps, (part.to - part.from) / PART_STEPS);
+    step_m = max(step_m, LEAST_STEP * texel);
+    return max(step_m, min(4.0 * width, slice_m / LEAST_STEPS));
 }
 
 // Of a usual step, the part or multiple that is right beyond a place.
@@ -238,15 +255,14 @@ void main()
             }
             // Slices, and steps, grow with the distance, and not with how far the ray goes on: else
             // they would change where rays graze a layer, which shows as a line.
-            float far = min(near + max(float(STEPS) * texel, GROWTH * near), part.to);
+            float far = min(near + max(LEAST_SLICE * texel, GROWTH * near), part.to);
             far = slice < SLICES ? far : part.to;
             vec3 middle = ray.direction * (0.5 * (near + far));
             float width = 0.5 * (near + far) * pixel_rad;
             float weather = cloud_cover(layer, middle, width);
             vec3 up = normalize(u_eye_up * u_eye.x + middle);
             float sun_mu = dot(up, u_sun);
-            float usual = max(max(texel, (far - near) / float(STEPS)),
-                              min(4.0 * width, (far - near) / float(LEAST_STEPS)));
+            float usual = find_step(part, near, far - near, texel, width);
             CloudBox box =
                 cloud_whole_box(layer, cloud_level(layer, max(width, 0.125 * usual)), four.y);
             lighting.up = up;
@@ -268,7 +284,7 @@ void main()
             float moment = 0.0; // of s
             Shares sum = Shares(0.0, 0.0, 0.0, 0.0, 0.0);
             Span span = first_span(layer, ray, s, weather, box);
-            for (int i = 0; i < 2 * STEPS; i++) {
+            for (int i = 0; i < PLACES; i++) {
                 // Through air and cloud until there is enough to be lit. Where nothing is skipped
                 // by a branch, a loop of its own keeps light from being looked for in empty air.
                 float enough = STEP_DEPTH / left;
@@ -276,7 +292,7 @@ void main()
                 float depth = 0.0;
                 float depth_s = 0.0;
                 float cover = 0.0;
-                for (int k = 0; k < 5 * STEPS; k++) {
+                for (int k = 0; k < LOOKS; k++) {
                     if (s >= far || left < OPAQUE || depth > enough ||
                         (depth > LEAST_DEPTH && !is_near)) {
                         break;
@@ -290,8 +306,7 @@ void main()
                     float step_m = min(stride, span.to - s);
                     float at = s + offset * step_m;
                     cover = mix(span.first, span.last, part_at(span, at));
-                    CloudLook look = cloud_look(layer, places_at(span, at),
-                                                cloud_height(layer, ray.direction * at), cover,
+                    CloudLook look = cloud_look(layer, places_at(span, at), cover,
                                                 max(span.first, span.last), rise, box);
                     is_near = look.is_near;
                     float own = look.extinction * step_m;

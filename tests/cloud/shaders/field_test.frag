@@ -14,9 +14,8 @@ void main()
     CloudBox box = cloud_box(layer, u_place.w);
     float cover = cloud_cover(layer, u_place.xyz, 1.0);
     cover = cloud_gathered(layer, u_place.xyz, cover, box);
-    float height = cloud_height(layer, u_place.xyz);
-    CloudPlaces at = cloud_places(layer, u_place.xyz, height);
-    float extinction = cloud_look(layer, at, height, cover, cover, 0.0, box).extinction;
-    float depth = cloud_sun_depth(layer, u_place.xyz, at, cover, 1.0, height, u_width.x, u_width.y);
-    out_point = vec4(extinction, height, depth, cover);
+    CloudPlaces at = cloud_places(layer, u_place.xyz);
+    float extinction = cloud_look(layer, at, cover, cover, 0.0, box).extinction;
+    float depth = cloud_sun_depth(layer, u_place.xyz, at, cover, 1.0, u_width.x, u_width.y);
+    out_point = vec4(extinction, at.height, depth, cover);
 }
