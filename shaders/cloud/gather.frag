@@ -28,7 +28,8 @@ uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, o
 layout(location = 0) out vec4 out_clouds;
 
 const float SKY_M = 1.0e8;
-const float SLACK = 0.1; // of the neighbours' range, that what is finer than they are may have
+const float SLACK = 0.1;    // of the neighbours' range, that what is finer than they are may have
+const float FAR_OFF = 0.25; // of a distance, that it may be wrong between rays
 
 // Logarithm of the distance at which the ray of a marched or other texel ends.
 float find_end(ivec2 texel)
@@ -90,21 +91,26 @@ void main()
     vec4 least = between;
     vec4 most = between;
     for (int n = 0; n < 9; n++) {
-        vec4 fresh =
-            texelFetch(u_fresh, clamp(nearest + ivec2(n % 3, n / 3) - 1, ivec2(0), last), 0);
+        ivec2 at = clamp(nearest + ivec2(n % 3, n / 3) - 1, ivec2(0), last);
+        bool is_alike = weigh_end(find_end(2 * at + offset), own) > 0.5;
+        vec4 fresh = is_alike ? texelFetch(u_fresh, at, 0) : between;
         least = min(least, fresh);
         most = max(most, fresh);
     }
     vec2 pixel = min(2.0 * vec2(texel), u_picture - 1.0) + 0.5;
     Ray ray = make_pixel_ray(pixel / u_picture);
-    vec3 before = ray.direction * exp(distance_log / weights) + u_moved;
+    float distance_m = exp(distance_log / weights);
+    vec3 before = ray.direction * distance_m + u_moved;
     float depth = dot(before, u_past_forward);
     vec2 seen = vec2(dot(before, u_past_right), dot(before, u_past_up)) / max(depth, 1.0e-6);
     vec2 past_texel = (0.5 * seen + 0.5) * u_picture * 0.5 - 0.25;
     bool is_seen = depth > 0.0 && max(abs(seen.x), abs(seen.y)) < 1.0;
     vec4 past = look_back(u_is_still > 0.5 ? vec2(texel) : past_texel);
     vec4 slack = SLACK * (most - least);
-    past = u_is_still > 0.5 ? past : clamp(past, least - slack, most + slack);
+    vec4 held = clamp(past, least - slack, most + slack);
+    float off = length(u_moved) / distance_m * FAR_OFF / (2.0 * u_disc.z);
+    float trust = 1.0 / (1.0 + off * off);
+    past = u_is_still > 0.5 ? past : mix(between, held, trust);
     past.a = clamp(past.a, 0.0, 1.0);
     bool is_fresh =
         all(equal((texel - offset) % 2, ivec2(0))) && all(greaterThanEqual(texel, offset));
