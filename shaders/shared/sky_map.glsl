@@ -117,10 +117,16 @@ SHARED_FN Number sky_map_depth(Length distance, Length start, Length end)
     return sqrt(shared_clamp((distance - start) / shared_max(end - start, 1.0e-3), 0.0, 1.0));
 }
 
-// From outside rays come from thin air into the densest.
-SHARED_FN Number sky_map_depth_outside(Length distance, Length start, Length end)
+// From outside rays come from thin air into dense, at `dense`: `before` of the depths stand before
+// that, the others beyond, and on both sides most of them near it.
+SHARED_FN Number sky_map_depth_outside(Length distance, Length start, Length dense, Length end,
+                                       Number before)
 {
-    return 1.0 - sqrt(shared_clamp((end - distance) / shared_max(end - start, 1.0e-3), 0.0, 1.0));
+    Number ahead =
+        1.0 - sqrt(shared_clamp((dense - distance) / shared_max(dense - start, 1.0e-3), 0.0, 1.0));
+    Number beyond =
+        sqrt(shared_clamp((distance - dense) / shared_max(end - dense, 1.0e-3), 0.0, 1.0));
+    return before * ahead + (1.0 - before) * beyond;
 }
 
 #endif // SHARED_SKY_MAP_GLSL

@@ -15,6 +15,9 @@ enum { LEAST_NODES = 2, MOST_NODES = RAY_RULE_NODES };
 // 0, where a mean over no distance has no meaning.
 static const double FIRST_DEPTH = 0.1;
 
+// Vertical optical depth of air that hides what is below; slanted rays see less of that.
+static const double OPAQUE_DEPTH = 2;
+
 struct aerial_worker {
     struct ray ray;
     struct transport_scratch *scratch;
@@ -51,6 +54,30 @@ static lanes find_backward_depth(const struct optics *o, double low_m, double hi
         depth += (optics_source(o, density, 0) - optics_source(o, density, 1)) * (float)step_m;
     }
     return depth;
+}
+
+// The altitude below which little light comes from, in any band; 0 where the ground is seen.
+static double find_opaque(const struct atmosphere *atmosphere)
+{
+    enum { STEPS = 1024 };
+    const struct optics *o = atmosphere->optics;
+    const double step_m = (o->top_radius_m - o->ground_radius_m) / STEPS;
+    double depth[BAND_COUNT] = {0};
+    for (int k = STEPS - 1; k >= 0; k--) {
+        double least = INFINITY;
+        for (int b = 0; b < BAND_COUNT; b++) {
+            for (int i = 0; i < o->constituent_count; i++) {
+                const struct profile *profile = &o->medium->constituents[i].profile;
+                depth[b] += (double)o->extinction_per_m[i][atmosphere->bands.lane[b]] *
+                            profile_density(profile, (k + 0.5) * step_m) * step_m;
+            }
+            least = fmin(least, depth[b]);
+        }
+        if (least > OPAQUE_DEPTH) {
+            return k * step_m;
+        }
+    }
+    return 0;
 }
 
 static void find_streams(struct aerial *a, struct streams *out)
@@ -113,6 +140,7 @@ trl_result aerial_init(const struct atmosphere *atmosphere, struct aerial *out)
     }
     if (result == TRL_OK) {
         find_streams(out, out->streams);
+        out->opaque_m = find_opaque(atmosphere);
     } else {
         aerial_finish(out);
     }
@@ -317,6 +345,38 @@ static void store_extinction(struct aerial *a, const double *column_m, int row, 
     }
 }
 
+// Where a ray from outside is in dense air first, and the part of its depths that stand before.
+static double find_dense(const struct aerial *a, double mu, bool hits_ground, double *before)
+{
+    const double pass_m = a->eye_radius_m * sqrt(fmax(0, 1 - mu * mu));
+    const double dense_m = a->atmosphere->optics->ground_radius_m + a->opaque_m;
+    *before = hits_ground && a->opaque_m == 0 ? 1 : 0.5;
+    return -a->eye_radius_m * mu - sqrt(fmax(0, (dense_m - pass_m) * (dense_m + pass_m)));
+}
+
+// The distances at which cells of a row begin and end: the inverse of sky_map_depth, and from
+// outside of sky_map_depth_outside.
+static void find_bounds(const struct aerial *a, double mu, bool hits_ground, double begin_m,
+                        double end_m, double *bound_m)
+{
+    double before;
+    double dense_m = find_dense(a, mu, hits_ground, &before);
+    dense_m = fmax(begin_m, fmin(end_m, dense_m));
+    bound_m[0] = begin_m;
+    for (int d = 0; d < a->depths; d++) {
+        const double x = fmax(d, FIRST_DEPTH) / (a->depths - 1);
+        if (!a->is_outside) {
+            bound_m[d + 1] = begin_m + (end_m - begin_m) * x * x;
+        } else if (x <= before) {
+            const double left = 1 - x / before;
+            bound_m[d + 1] = dense_m - (dense_m - begin_m) * left * left;
+        } else {
+            const double gone = (x - before) / (1 - before);
+            bound_m[d + 1] = dense_m + (end_m - dense_m) * gone * gone;
+        }
+    }
+}
+
 // Marches one row cell by cell and stores the means up to each bound.
 static void march_row(struct aerial *a, struct aerial_worker *w, int row, double sun_mu)
 {
@@ -330,12 +390,7 @@ static void march_row(struct aerial *a, struct aerial_worker *w, int row, double
         end_m = begin_m + 1; // grazes the top: nothing there
     }
     double bound_m[AERIAL_LONG + 1];
-    bound_m[0] = begin_m;
-    for (int d = 0; d < a->depths; d++) {
-        const double x = fmax(d, FIRST_DEPTH) / (a->depths - 1);
-        const double part = a->is_outside ? 1 - (1 - x) * (1 - x) : x * x;
-        bound_m[d + 1] = begin_m + (end_m - begin_m) * part;
-    }
+    find_bounds(a, mu, hits_ground, begin_m, end_m, bound_m);
     const struct ray_desc desc = {.radius_m = a->eye_radius_m, .mu = mu};
     const int nodes = nodes_per_cell(optics);
     ray_init_cells(&w->ray, optics, atm->solution.rules, &desc, bound_m, a->depths, nodes);

@@ -15,7 +15,8 @@
 // order apart from the others. The sources of all cells make what is scattered.
 //
 // From outside the sun's height changes from noon to night along a row, and the air is densest
-// where rays end. There the grid has more azimuths and fewer depths, both where light changes.
+// where rays end, or pass closest, or where it hides the ground. There the grid has more azimuths
+// and fewer depths, both where light changes.
 
 #include "scatter/atmosphere.h"
 
@@ -35,6 +36,7 @@ struct aerial {
     double eye_radius_m;
     double nearest_m, farthest_m;           // of the rows on the ground: nadir, horizon
     double horizon_mu, highest_mu;          // of the rows above
+    double opaque_m;                        // altitude below which the air hides the ground; or 0
     bool is_outside;                        // the air
     int depths, azimuths;                   // 32 and 16; from outside 16 and 32
     float *scattered[1 + TABLE_MAX_PEAKED]; // [row][azimuth][depth][TEXEL_FLOATS]; from outside

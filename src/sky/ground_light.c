@@ -119,12 +119,17 @@ static lanes flux_toward_star(const struct moments *m, struct light_place at)
     return moment_at(m, at, harmonic_index(1, 1)) * (float)sqrt(4 * M_PI / 3);
 }
 
+// Of light that all comes from 5 degrees above the horizon. More is rounding, of a dark sky.
+static const float MOST_SLOPE = 8.6f;
+
 // Light L s x of all directions has the flux 4 pi / 3 L s along x; half a sky of L sends pi L to
 // level ground.
 static lanes slope(const struct atmosphere *a, struct light_place at)
 {
-    return flux_toward_star(&a->solution.moments, at) * 0.75f /
-           lanes_max(side_light(a, 1, at), lanes_set(1e-30f));
+    const lanes ratio = flux_toward_star(&a->solution.moments, at) * 0.75f /
+                        lanes_max(side_light(a, 1, at), lanes_set(1e-30f));
+    const lanes low = lanes_max(ratio, lanes_set(-MOST_SLOPE));
+    return -lanes_max(-low, lanes_set(-MOST_SLOPE));
 }
 
 static lanes from_sky(const struct atmosphere *a, struct light_place at)

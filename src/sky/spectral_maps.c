@@ -295,14 +295,14 @@ trl_result spectral_maps_update(struct spectral_maps *maps, const struct spectra
 void spectral_maps_bind(const struct spectral_maps *maps, struct gpu_program *program)
 {
     const struct table *table = &maps->atmosphere->table;
-    const float aerial_rows[2] = {AERIAL_GROUND_ROWS, AERIAL_ROWS};
+    const float aerial_rows[3] = {AERIAL_GROUND_ROWS, AERIAL_ROWS, (float)maps->aerial.opaque_m};
     const float light_texel[2] = {1.0f / GROUND_LIGHT_SUNS, 1.0f / (float)maps->skylight.width};
     sky_set_vec3(
         program, "u_slice_texel",
         (struct vec3){1.0 / table->size.azimuths, 1.0 / table->size.suns, 1.0 / table->size.views});
     sky_set_vec3(program, "u_aerial_texel",
                  (struct vec3){1.0 / AERIAL_LONG, 1.0 / AERIAL_SHORT, 1.0 / AERIAL_ROWS});
-    gpu_program_set_vec2(program, "u_aerial_rows", aerial_rows);
+    gpu_program_set_vec3(program, "u_aerial_rows", aerial_rows);
     sky_set_vec4(program, "u_rows", maps->aerial.nearest_m, maps->aerial.farthest_m,
                  maps->aerial.horizon_mu, maps->aerial.highest_mu);
     sky_set_vec4(program, "u_ground_light", 0, maps->highest_m, SUNLIGHT_SOFT,

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const char scene_format[] = CLOUD_SCENE "%s}";
 
@@ -26,10 +27,14 @@ trl_view look(double altitude_m, double pitch_deg)
 struct drawer make_drawer(struct fixture *f, const char *clouds)
 {
     char text[2048];
-    const int length = snprintf(text, sizeof text, scene_format, clouds);
+    snprintf(text, sizeof text, scene_format, clouds);
+    return make_scene_drawer(f, text);
+}
+
+struct drawer make_scene_drawer(struct fixture *f, const char *text)
+{
     struct drawer d = {0};
-    assert_int_equal(trl_scene_parse(f->ctx, text, (size_t)length, "cloudy", ".", &d.scene),
-                     TRL_OK);
+    assert_int_equal(trl_scene_parse(f->ctx, text, strlen(text), "cloudy", ".", &d.scene), TRL_OK);
     trl_renderer_desc desc = trl_renderer_desc_default();
     desc.scene = d.scene;
     desc.wavelengths = 4;

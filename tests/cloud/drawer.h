@@ -22,6 +22,8 @@ struct drawer {
 };
 
 struct drawer make_drawer(struct fixture *f, const char *clouds);
+// Of a whole scene.
+struct drawer make_scene_drawer(struct fixture *f, const char *text);
 void finish_drawer(struct drawer *d);
 
 // Radiance, top row first, of WIDTH x HEIGHT pixels or as many times that each way; free() it.

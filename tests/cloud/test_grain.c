@@ -173,6 +173,44 @@ static void light_on_far_clouds_is_finite(void **state)
     finish_drawer(&d);
 }
 
+static const char deep_scene[] =
+    "{\"terrella\": 1, \"name\": \"deep\","
+    " \"star\": {\"spectral_irradiance\": 1.5, \"angular_radius_deg\": 0.27},"
+    " \"planet\": {\"radius_m\": 6371000, \"ground_albedo\": 0.1},"
+    " \"atmosphere\": {\"height_m\": 120000, \"constituents\": [{\"name\": \"air\","
+    "  \"scattering_per_m\": {\"power_law\": {\"at_nm\": 550, \"value\": 3e-3,"
+    "   \"exponent\": -0.5}}, \"profile\": {\"exponential\": {\"scale_height_m\": 10000}},"
+    "  \"phase\": \"rayleigh\"}]}" LAYERS(
+        "{\"type\": \"stratus\", \"cover\": 1, \"base_m\": 57000, \"top_m\": 72000,"
+        " \"extinction_per_m\": 0.001, \"scale_m\": 250000}") "}";
+
+// Before its clouds, air that hides the ground is as deep along rays beside the planet as along
+// those that would meet it.
+static void a_deck_in_deep_air_has_no_dark_limb(void **state)
+{
+    enum { SIDES = 2 };
+    struct fixture *f = *state;
+    struct drawer d = make_scene_drawer(f, deep_scene);
+    trl_view view = look(12000e3, -69.75);
+    view.vertical_fov_rad = 1.1 * DEGREE;
+    float *rgba = draw_larger(&d, &view, SIDES);
+    double brightest = 0;
+    double dip = 0; // below what is farther out
+    for (int y = 0; y < HEIGHT * SIDES; y++) {
+        double row = 0;
+        for (int x = 0; x < WIDTH * SIDES; x++) {
+            row += (double)rgba[4 * (y * WIDTH * SIDES + x) + 1];
+        }
+        brightest = fmax(brightest, row);
+        dip = fmax(dip, (brightest - row) / fmax(brightest, 1e-9));
+    }
+    print_message("a dip of %.4f\n", dip);
+    assert_true(brightest > 0);
+    assert_true(dip < 0.15); // 0.2 where depths are those of thin air; traced: none
+    free(rgba);
+    finish_drawer(&d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -181,6 +219,7 @@ int main(void)
         cmocka_unit_test(a_deck_from_afar_has_no_lattice),
         cmocka_unit_test(a_closed_deck_from_space_has_no_rings),
         cmocka_unit_test(light_on_far_clouds_is_finite),
+        cmocka_unit_test(a_deck_in_deep_air_has_no_dark_limb),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }

@@ -192,7 +192,7 @@ static void maps_from_outside_agree(void **state)
             const double way = (double)distance[i];
             const SkyMapSuns suns = sky_map_suns(7e6, way, 6.5e6, -0.4, (double)mu[j]);
             assert_same_texel(got.rgba[0], sky_map_ground_row_outside(way, 1000, 1133000));
-            assert_same_texel(got.rgba[1], sky_map_depth_outside(way, 1000, 1133000));
+            assert_same_texel(got.rgba[1], sky_map_depth_outside(way, 1000, 700000, 1133000, 0.5));
             assert_same_texel(got.rgba[2], suns.middle);
             assert_same_texel(got.rgba[3], suns.reach);
         }

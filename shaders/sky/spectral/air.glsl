@@ -13,7 +13,7 @@ uniform vec4 u_rows;         // nearest, farthest, horizon mu, highest mu
 uniform vec4 u_sun_grid;     // centre, width, first, last: see sky_map_sun
 uniform vec3 u_slice_texel;  // 1 over azimuths, suns, views
 uniform vec3 u_aerial_texel; // 1 over texels of u_scattered: see air_map
-uniform vec2 u_aerial_rows;  // on the ground, in all
+uniform vec3 u_aerial_rows;  // on the ground, in all; altitude below which air hides the ground, m
 
 uniform sampler3D u_slice0;
 uniform sampler3D u_scattered0;
@@ -166,11 +166,17 @@ float aerial_azimuth(Ray ray)
                          : sky_map_azimuth(cosine);
 }
 
-// A distance's place on its ray, in [0, 1].
+// A distance's place on its ray, in [0, 1]. From outside air is dense where it hides the ground, or
+// at the ground, or where rays pass closest; see find_dense in scatter/aerial.c.
 float air_depth(Ray ray, float distance_m)
 {
-    return u_eye.w > 0.5 ? sky_map_depth_outside(distance_m, ray.begin_m, ray.end_m)
-                         : sky_map_depth(distance_m, ray.begin_m, ray.end_m);
+    float opaque_m = u_aerial_rows.z;
+    float inside_m2 = ray.inside_m2 + opaque_m * (2.0 * u_planet.x + opaque_m);
+    float dense_m = ray.begin_m + ray.chord_m - sqrt(max(inside_m2, 0.0));
+    float before = ray.meets_ground && opaque_m == 0.0 ? 1.0 : 0.5;
+    return u_eye.w > 0.5
+               ? sky_map_depth_outside(distance_m, ray.begin_m, dense_m, ray.end_m, before)
+               : sky_map_depth(distance_m, ray.begin_m, ray.end_m);
 }
 
 // The places of u_scattered: depth x azimuth x row, from outside azimuth x depth x row.

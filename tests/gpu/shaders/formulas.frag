@@ -41,7 +41,8 @@ void main()
     vec4 shadows = vec4(penumbra_visible(u_angle.x), penumbra_mean(u_angle.x, u_angle.y), 0.0, 0.0);
     SkyMapSuns suns = sky_map_suns(7.0e6, u_map.x, 6.5e6, -0.4, u_map.z);
     vec4 outside = vec4(sky_map_ground_row_outside(u_map.x, 1000.0, u_map.y),
-                        sky_map_depth_outside(u_map.x, 1000.0, u_map.y), suns.middle, suns.reach);
+                        sky_map_depth_outside(u_map.x, 1000.0, 700000.0, u_map.y, 0.5), suns.middle,
+                        suns.reach);
     vec4 eclipses = vec4(eclipse_visible(u_angle.x, u_angle.y), eclipse_corona(u_angle.x),
                          eclipse_shadow(u_shell.x, u_shell.y, 1737400.0, 0.0046529), 0.0);
     vec4 blends =
