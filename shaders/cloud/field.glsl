@@ -113,8 +113,8 @@ CloudPlaces cloud_places(CloudLayer layer, vec3 place)
 }
 
 // The same along a straight line. Bends are so long that in a tile noise moves by a thirtieth of
-// one from between those of both ends, and in a third of one by a third of a texel. Heights are
-// above those between by the square of the length over 8 radii of the planet.
+// one from between those of both ends, and in a third of one by a third of a texel. Heights of
+// the line are too high by up to the square of the length over 8 radii of the planet.
 struct CloudLine {
     CloudPlaces first, way;
 };

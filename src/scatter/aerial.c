@@ -64,13 +64,16 @@ static double find_opaque(const struct atmosphere *atmosphere)
     const double step_m = (o->top_radius_m - o->ground_radius_m) / STEPS;
     double depth[BAND_COUNT] = {0};
     for (int k = STEPS - 1; k >= 0; k--) {
+        for (int i = 0; i < o->constituent_count; i++) {
+            const double density =
+                profile_density(&o->medium->constituents[i].profile, (k + 0.5) * step_m);
+            for (int b = 0; b < BAND_COUNT; b++) {
+                depth[b] +=
+                    (double)o->extinction_per_m[i][atmosphere->bands.lane[b]] * density * step_m;
+            }
+        }
         double least = INFINITY;
         for (int b = 0; b < BAND_COUNT; b++) {
-            for (int i = 0; i < o->constituent_count; i++) {
-                const struct profile *profile = &o->medium->constituents[i].profile;
-                depth[b] += (double)o->extinction_per_m[i][atmosphere->bands.lane[b]] *
-                            profile_density(profile, (k + 0.5) * step_m) * step_m;
-            }
             least = fmin(least, depth[b]);
         }
         if (least > OPAQUE_DEPTH) {
@@ -351,7 +354,7 @@ static double find_dense(const struct aerial *a, double mu, bool hits_ground, do
     const double pass_m = a->eye_radius_m * sqrt(fmax(0, 1 - mu * mu));
     const double dense_m = a->atmosphere->optics->ground_radius_m + a->opaque_m;
     *before = hits_ground && a->opaque_m == 0 ? 1 : 0.5;
-    return -a->eye_radius_m * mu - sqrt(fmax(0, (dense_m - pass_m) * (dense_m + pass_m)));
+    return -a->eye_radius_m * mu - ray_half_chord(dense_m, pass_m);
 }
 
 // The distances at which cells of a row begin and end: the inverse of sky_map_depth, and from

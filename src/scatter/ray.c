@@ -15,9 +15,7 @@ void ray_rules_init(struct ray_rules *rules)
     }
 }
 
-// Half the chord that a line passing the centre at `pass_m` cuts from a sphere, without
-// cancellation.
-static double half_chord(double radius_m, double pass_m)
+double ray_half_chord(double radius_m, double pass_m)
 {
     return sqrt(fmax(0, (radius_m - pass_m) * (radius_m + pass_m)));
 }
@@ -27,7 +25,7 @@ bool ray_clip(const struct optics *optics, double radius_m, double mu, double *b
 {
     const double pass_m = radius_m * sqrt(fmax(0, 1 - mu * mu));
     const double position = radius_m * mu; // along the line, 0 at its closest point to the centre
-    const double top = half_chord(optics->top_radius_m, pass_m);
+    const double top = ray_half_chord(optics->top_radius_m, pass_m);
     *hits_ground = mu < 0 && pass_m < optics->ground_radius_m;
     *begin_m = *end_m = 0;
     if (pass_m >= optics->top_radius_m || (radius_m > optics->top_radius_m && mu >= 0)) {
@@ -35,7 +33,7 @@ bool ray_clip(const struct optics *optics, double radius_m, double mu, double *b
     }
     *begin_m = fmax(0, -top - position);
     *end_m =
-        *hits_ground ? -half_chord(optics->ground_radius_m, pass_m) - position : top - position;
+        *hits_ground ? -ray_half_chord(optics->ground_radius_m, pass_m) - position : top - position;
     *end_m = fmax(*begin_m, *end_m);
     return *end_m > *begin_m;
 }
@@ -88,7 +86,7 @@ static void place_node(struct ray_node *node, const struct ray *ray, const struc
                        optics_altitude(optics, leg->low_shell);
     node->radius_m = optics->ground_radius_m + node->altitude_m;
     const double pass_m = ray->eye_radius_m * sqrt(fmax(0, 1 - ray->eye_mu * ray->eye_mu));
-    const double chord = fmax(half_chord(node->radius_m, pass_m), 1e-6);
+    const double chord = fmax(ray_half_chord(node->radius_m, pass_m), 1e-6);
     const double position = leg->is_rising ? chord : -chord;
     node->distance_m = position - ray->eye_radius_m * ray->eye_mu;
     node->mu = position / node->radius_m;

@@ -66,6 +66,10 @@ void ray_init(struct ray *ray, const struct optics *optics, const struct ray_rul
 void ray_init_cells(struct ray *ray, const struct optics *optics, const struct ray_rules *rules,
                     const struct ray_desc *desc, const double *bound_m, int count, int per_cell);
 
+// Half the chord that a line passing the centre at `pass_m` cuts from a sphere, without
+// cancellation; 0 where it passes by.
+double ray_half_chord(double radius_m, double pass_m);
+
 // Geometry alone: where the ray enters and leaves the medium. False when it misses.
 bool ray_clip(const struct optics *optics, double radius_m, double mu, double *begin_m,
               double *end_m, bool *hits_ground);

@@ -4,7 +4,6 @@
 
 #include "scene.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,14 +61,4 @@ float *draw_larger(const struct drawer *d, const trl_view *view, int times)
 float *draw(const struct drawer *d, const trl_view *view)
 {
     return draw_larger(d, view, 1);
-}
-
-double mean_green(const float *rgba)
-{
-    double sum = 0;
-    for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        assert_true(isfinite(rgba[4 * i + 1]));
-        sum += (double)rgba[4 * i + 1] / (WIDTH * HEIGHT);
-    }
-    return sum;
 }

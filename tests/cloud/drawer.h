@@ -30,7 +30,4 @@ void finish_drawer(struct drawer *d);
 float *draw(const struct drawer *d, const trl_view *view);
 float *draw_larger(const struct drawer *d, const trl_view *view, int times);
 
-// Fails where a value is not finite.
-double mean_green(const float *rgba);
-
 #endif // TESTS_CLOUD_DRAWER_H
