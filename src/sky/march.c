@@ -10,6 +10,10 @@
 // Pixels of the picture to a cell of the grid, each way: half a degree of a usual view. No shadow
 // in the air has a sharper edge than the star is wide, save one that is looked at along its length.
 enum { CELL = 8, FINEST_CELL = 3, UMBRA_CELLS = 5 };
+
+// Layers that a pass marches through and fills: as many as there are targets of a program at least.
+// The last sums before space are in one of the two textures.
+enum { PASS_LAYERS = 2, FILL_LAYERS = 4, LAST_SUMS = MARCH_LAYERS / PASS_LAYERS & 1 };
 static const double SKY_M = 1e29; // a ray that is looked at so far meets no ground
 
 void sky_march_init(const struct sky_pixels *pixels, struct sky_march *out)
@@ -21,13 +25,14 @@ void sky_march_init(const struct sky_pixels *pixels, struct sky_march *out)
 
 static void finish_maps(struct sky_march *m)
 {
-    gpu_target_finish(&m->layer);
+    gpu_target_finish(&m->filled);
+    gpu_target_finish(&m->last);
     for (int i = 0; i < 2; i++) {
         gpu_target_finish(&m->sums[i]);
         gpu_texture_finish(&m->lit[i]);
         gpu_texture_finish(&m->all[i]);
     }
-    gpu_texture_finish(&m->steps);
+    gpu_texture_finish(&m->marched);
     gpu_texture_finish(&m->share);
 }
 
@@ -119,15 +124,28 @@ static trl_result make_targets(struct sky_march *m)
 {
     trl_result result = TRL_OK;
     for (int i = 0; i < 2 && result == TRL_OK; i++) {
-        const struct gpu_target_desc sums = {
-            .label = "march sums",
-            .color_count = 3,
-            .colors = {{.texture = &m->lit[i]}, {.texture = &m->all[i]}, {.texture = &m->steps}}};
+        const struct gpu_target_desc sums = {.label = "march sums",
+                                             .color_count = 2 + PASS_LAYERS,
+                                             .colors = {{.texture = &m->lit[i]},
+                                                        {.texture = &m->all[i]},
+                                                        {.texture = &m->marched, .layer = 0},
+                                                        {.texture = &m->marched, .layer = 1}}};
         result = gpu_target_init(m->gpu, &sums, &m->sums[i]);
     }
-    const struct gpu_target_desc layer = {
-        .label = "march", .color_count = 1, .colors[0].texture = &m->share};
-    return result == TRL_OK ? gpu_target_init(m->gpu, &layer, &m->layer) : result;
+    const struct gpu_target_desc last = {
+        .label = "march into space",
+        .color_count = 3,
+        .colors = {{.texture = &m->lit[1 - LAST_SUMS]},
+                   {.texture = &m->all[1 - LAST_SUMS]},
+                   {.texture = &m->marched, .layer = MARCH_LAYERS}}};
+    if (result == TRL_OK) {
+        result = gpu_target_init(m->gpu, &last, &m->last);
+    }
+    struct gpu_target_desc filled = {.label = "march", .color_count = FILL_LAYERS};
+    for (uint32_t i = 0; i < FILL_LAYERS; i++) {
+        filled.colors[i] = (struct gpu_attachment){.texture = &m->share, .layer = i};
+    }
+    return result == TRL_OK ? gpu_target_init(m->gpu, &filled, &m->filled) : result;
 }
 
 // Finer where an umbra is small in the picture.
@@ -146,11 +164,11 @@ static trl_result fit_maps(struct sky_march *m, const struct gpu_target *picture
     struct gpu_region size = {.width = (picture->width + cell - 1) / cell,
                               .height = (picture->height + cell - 1) / cell,
                               .depth = 1};
-    if (m->steps.width == size.width && m->steps.height == size.height) {
+    if (m->share.width == size.width && m->share.height == size.height) {
         return TRL_OK;
     }
     finish_maps(m);
-    trl_result result = make_map(m, &size, GPU_FILTER_NEAREST, &m->steps);
+    trl_result result = TRL_OK;
     for (int i = 0; i < 2 && result == TRL_OK; i++) {
         result = make_map(m, &size, GPU_FILTER_NEAREST, &m->lit[i]);
         if (result == TRL_OK) {
@@ -158,6 +176,9 @@ static trl_result fit_maps(struct sky_march *m, const struct gpu_target *picture
         }
     }
     size.depth = MARCH_LAYERS + 1;
+    if (result == TRL_OK) {
+        result = make_map(m, &size, GPU_FILTER_NEAREST, &m->marched);
+    }
     if (result == TRL_OK) {
         result = make_map(m, &size, GPU_FILTER_LINEAR, &m->share);
     }
@@ -194,7 +215,7 @@ static trl_result draw_begin(struct sky_march *m, const struct sky_march_source 
                              const struct sky_view *view)
 {
     const struct gpu_pass pass = {.target = &m->sums[0]};
-    const float grid[2] = {(float)m->steps.width, (float)m->steps.height};
+    const float grid[2] = {(float)m->share.width, (float)m->share.height};
     sky_pixels_set_view(source->pixels, &m->begin, view);
     gpu_program_set_vec2(&m->begin, "u_grid", grid);
     if (!m->is_bare) {
@@ -204,31 +225,64 @@ static trl_result draw_begin(struct sky_march *m, const struct sky_march_source 
     return gpu_draw_fullscreen(&m->begin, "march");
 }
 
-struct step {
-    int layer;
-    double from_m, to_m;
-};
-
-static trl_result draw_step(struct sky_march *m, struct gpu_program *program,
-                            const struct step *step)
+// Takes its program's sums of before from one of the two textures of them.
+static trl_result draw_steps(struct sky_march *m, struct gpu_program *program, int before,
+                             const struct gpu_target *target)
 {
-    const int before = step->layer & 1; // of the two sums
-    const float range[2] = {(float)step->from_m, (float)step->to_m};
-    gpu_program_set_vec2(program, "u_step", range);
+    const struct gpu_pass pass = {.target = target};
     gpu_program_set_texture(program, "u_lit", &m->lit[before]);
     gpu_program_set_texture(program, "u_all", &m->all[before]);
-    const struct gpu_pass sum = {.target = &m->sums[1 - before]};
-    gpu_pass_begin(m->gpu, &sum);
-    trl_result result = gpu_draw_fullscreen(program, "march");
-    if (result == TRL_OK) {
-        result = gpu_target_set_layer(&m->layer, 0, (uint32_t)step->layer);
+    gpu_pass_begin(m->gpu, &pass);
+    return gpu_draw_fullscreen(program, "march");
+}
+
+static trl_result draw_two(struct sky_march *m, int layer)
+{
+    const int before = layer / PASS_LAYERS & 1;
+    const float steps[3] = {(float)layer_end(m, layer), (float)layer_end(m, layer + 1),
+                            (float)layer_end(m, layer + 2)};
+    struct gpu_target *sums = &m->sums[1 - before];
+    trl_result result = TRL_OK;
+    for (uint32_t i = 0; i < PASS_LAYERS && result == TRL_OK; i++) {
+        result = gpu_target_set_layer(sums, 2 + i, (uint32_t)layer + i);
     }
-    if (result == TRL_OK) {
-        const struct gpu_pass fill = {.target = &m->layer};
-        const double least_m = step->layer < MARCH_LAYERS ? step->from_m : SKY_M;
-        gpu_program_set_float(&m->fill, "u_distance", (float)least_m);
-        gpu_pass_begin(m->gpu, &fill);
-        result = gpu_draw_fullscreen(&m->fill, "march");
+    gpu_program_set_vec3(&m->step, "u_steps", steps);
+    return result == TRL_OK ? draw_steps(m, &m->step, before, sums) : result;
+}
+
+static trl_result draw_space(struct sky_march *m)
+{
+    gpu_program_set_vec3(&m->space, "u_steps", (const float[]){(float)m->far_m, 1e30f, 1e30f});
+    return draw_steps(m, &m->space, LAST_SUMS, &m->last);
+}
+
+static trl_result fill_four(struct sky_march *m, int layer)
+{
+    float distances[FILL_LAYERS];
+    trl_result result = TRL_OK;
+    for (int i = 0; i < FILL_LAYERS && result == TRL_OK; i++) {
+        const bool is_space = layer + i == MARCH_LAYERS;
+        distances[i] = (float)(is_space ? SKY_M : layer_end(m, layer + i));
+        result = gpu_target_set_layer(&m->filled, (uint32_t)i, (uint32_t)(layer + i));
+    }
+    if (result != TRL_OK) {
+        return result;
+    }
+    const struct gpu_pass pass = {.target = &m->filled};
+    gpu_program_set_vec4(&m->fill, "u_distances", distances);
+    gpu_program_set_int(&m->fill, "u_first", layer);
+    gpu_pass_begin(m->gpu, &pass);
+    return gpu_draw_fullscreen(&m->fill, "march");
+}
+
+// All layers and the one of space; the last four overlap those before.
+static trl_result fill_all(struct sky_march *m)
+{
+    trl_result result = TRL_OK;
+    gpu_program_set_texture(&m->fill, "u_shares", &m->marched);
+    for (int layer = 0; layer <= MARCH_LAYERS && result == TRL_OK; layer += FILL_LAYERS) {
+        const int last = MARCH_LAYERS + 1 - FILL_LAYERS;
+        result = fill_four(m, layer < last ? layer : last);
     }
     return result;
 }
@@ -262,13 +316,13 @@ trl_result sky_march_draw(struct sky_march *m, const struct sky_march_source *so
     }
     set_program(m, source, view, &m->step);
     set_program(m, source, view, &m->space);
-    gpu_program_set_texture(&m->fill, "u_steps", &m->steps);
-    for (int layer = 0; layer < MARCH_LAYERS && result == TRL_OK; layer++) {
-        const struct step step = {layer, layer_end(m, layer), layer_end(m, layer + 1)};
-        result = draw_step(m, &m->step, &step);
+    for (int layer = 0; layer < MARCH_LAYERS && result == TRL_OK; layer += PASS_LAYERS) {
+        result = draw_two(m, layer);
     }
-    const struct step space = {MARCH_LAYERS, m->far_m, 1e30};
-    return result == TRL_OK ? draw_step(m, &m->space, &space) : result;
+    if (result == TRL_OK) {
+        result = draw_space(m);
+    }
+    return result == TRL_OK ? fill_all(m) : result;
 }
 
 void sky_march_bind(const struct sky_march *m, struct gpu_program *program)

@@ -12,7 +12,7 @@
 //     out  share      3D RGBA32F  grid x distance: of XYZ, up to the distance at which a layer
 //     ends;
 //                                 the last layer is the whole way into space
-//          sums, steps            scratch
+//          sums, marched          scratch
 //
 // Layers end at far (k / MARCH_LAYERS)^2 from where a ray's air begins.
 
@@ -28,8 +28,8 @@ struct sky_march {
     bool is_made; // with the programs for:
     bool is_bare, has_eclipse, has_clouds;
     struct gpu_program begin, step, space, fill;
-    struct gpu_texture lit[2], all[2], steps, share; // of the last picture's size
-    struct gpu_target sums[2], layer;
+    struct gpu_texture lit[2], all[2], marched, share; // of the last picture's size
+    struct gpu_target sums[2], last, filled;
     double far_m;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// One step of the march along the rays of a coarse grid over the picture: the light that the air
-// between two distances sends to the eye, as the star alone would make it and as it is with what
-// stands before the star, added to the sums of the nearer steps. Only the share of the first in
-// the second is used, so both may be rough alike.
+// Two steps of the march along the rays of a coarse grid over the picture, or the last one into
+// space: the light that the air between two distances sends to the eye, as the star alone would
+// make it and as it is with what stands before the star, added to the sums of the nearer steps.
+// Only the share of the first in the second is used, so both may be rough alike.
 //
 // Of the first order, terrain takes what it hides of the star. Light that was scattered before
 // comes from all around, from farther away than shadows of mountains are wide, and is left whole.
@@ -30,7 +30,7 @@
 
 in vec2 v_uv;
 
-uniform vec2 u_step;     // from and to, m from where the ray's air begins
+uniform vec3 u_steps;    // from, between them, and to, m from where the ray's air begins
 uniform sampler2D u_lit; // sums so far; alpha: how far the ray is looked at
 uniform sampler2D u_all;
 uniform sampler3D u_source0; // as u_scattered0, but of each cell alone
@@ -47,7 +47,10 @@ uniform sampler3D u_source3;
 
 layout(location = 0) out vec4 out_lit;
 layout(location = 1) out vec4 out_all;
-layout(location = 2) out vec4 out_share; // of XYZ; alpha: as above, from where the air begins
+layout(location = 2) out vec4 out_first; // share of XYZ; alpha: as above, from where the air begins
+#ifndef TO_SPACE
+layout(location = 3) out vec4 out_second; // the same after the second step
+#endif
 
 // The terrain's edge is looked for at this many places of a step; between them it is straight.
 const int SHADOW_PARTS = 4;
@@ -128,14 +131,19 @@ vec2 piece_leaves(vec3 from, vec3 to)
     return vec2(seen * above, above);
 }
 
-// The same over a segment.
-vec2 terrain_leaves(Ray ray, float from_m, float to_m)
+vec3 air_shadow_at(Ray ray, float distance_m)
+{
+    return terrain_air_shadow(ray.direction * distance_m, altitude_at(ray, distance_m));
+}
+
+// The same over a segment. `before` is the shadow where it begins, and comes back as that of its
+// end.
+vec2 terrain_leaves(Ray ray, float from_m, float to_m, inout vec3 before)
 {
     vec2 sum = vec2(0.0);
-    vec3 before = terrain_air_shadow(ray.direction * from_m, altitude_at(ray, from_m));
     for (int i = 1; i <= SHADOW_PARTS; i++) {
         float s = mix(from_m, to_m, float(i) / float(SHADOW_PARTS));
-        vec3 here = terrain_air_shadow(ray.direction * s, altitude_at(ray, s));
+        vec3 here = air_shadow_at(ray, s);
         sum += piece_leaves(before, here);
         before = here;
     }
@@ -189,17 +197,28 @@ Source shaded(Ray ray, Source source, float from_m, float to_m)
     return sum;
 }
 
-void main()
+struct Sums {
+    vec3 lit, all; // XYZ
+};
+
+vec4 share_of(Sums sums, float reach)
 {
-    Ray ray = make_pixel_ray(v_uv);
-    vec4 lit = texelFetch(u_lit, ivec2(gl_FragCoord.xy), 0);
-    vec3 all = texelFetch(u_all, ivec2(gl_FragCoord.xy), 0).xyz;
-    float end = min(ray.end_m, lit.w);
-    float from = clamp(ray.begin_m + u_step.x, ray.begin_m, max(end, ray.begin_m));
-    float to = clamp(ray.begin_m + u_step.y, from, max(end, from));
+#ifdef CLOUDS
+    // Those below send light up: there may be more.
+    vec3 share = sums.all.x > 0.0 ? sums.lit / max(sums.all, vec3(1.0e-30)) : vec3(1.0);
+#else
+    // Exactly 1 where nothing is hidden.
+    vec3 share = mix(sums.lit / max(sums.all, vec3(1.0e-30)), vec3(1.0),
+                     vec3(greaterThanEqual(sums.lit, sums.all)));
+#endif
+    return vec4(share, reach);
+}
+
+#ifdef TO_SPACE
+void add_space(Ray ray, float from, float to, inout Sums sums)
+{
     float azimuth = aerial_azimuth(ray);
     float row = aerial_row(ray);
-#ifdef TO_SPACE
     for (int i = 0; i < SPACE_PARTS; i++) {
         float x = float(i) / float(SPACE_PARTS);
         float y = float(i + 1) / float(SPACE_PARTS);
@@ -207,28 +226,55 @@ void main()
         float middle = from + (to - from) * 0.5 * (x * x + y * y);
         Source source = source_at(ray, azimuth, row, middle);
         Source left = eclipsed(ray, clouded(ray, source, middle), middle);
-        lit.xyz += (left.first + left.multiple) * width;
-        all += (source.first + source.multiple) * width;
+        sums.lit += (left.first + left.multiple) * width;
+        sums.all += (source.first + source.multiple) * width;
     }
+}
 #else
+// `shadow` is the terrain's where the step begins, and comes back as that of its end.
+void add_step(Ray ray, float azimuth, float row, float from, float to, inout vec3 shadow,
+              inout Sums sums)
+{
     vec2 leaves = vec2(1.0);
 #ifdef SURFACE
-    leaves = terrain_leaves(ray, from, to);
+    leaves = terrain_leaves(ray, from, to, shadow);
 #endif
     Source source = source_at(ray, azimuth, row, 0.5 * (from + to));
     Source left = eclipsed(ray, shaded(ray, source, from, to), 0.5 * (from + to));
-    lit.xyz += (left.first * leaves.x + left.multiple * leaves.y) * (to - from);
-    all += (source.first + source.multiple) * (leaves.y * (to - from));
+    sums.lit += (left.first * leaves.x + left.multiple * leaves.y) * (to - from);
+    sums.all += (source.first + source.multiple) * (leaves.y * (to - from));
+}
 #endif
-    out_lit = lit;
-    out_all = vec4(all, 0.0);
-#ifdef CLOUDS
-    // Those below send light up: there may be more.
-    vec3 share = all.x > 0.0 ? lit.xyz / max(all, vec3(1.0e-30)) : vec3(1.0);
+
+void main()
+{
+    Ray ray = make_pixel_ray(v_uv);
+    vec4 lit = texelFetch(u_lit, ivec2(gl_FragCoord.xy), 0);
+    Sums sums = Sums(lit.xyz, texelFetch(u_all, ivec2(gl_FragCoord.xy), 0).xyz);
+    float end = max(min(ray.end_m, lit.w), ray.begin_m);
+    vec3 at = clamp(ray.begin_m + u_steps, ray.begin_m, end);
+    float reach = lit.w - ray.begin_m;
+    // Loops, since branches save nothing: many rays end before the last steps.
+#ifdef TO_SPACE
+    for (int once = 0; once < (at.z > at.x ? 1 : 0); once++) {
+        add_space(ray, at.x, at.z, sums);
+    }
+    out_first = share_of(sums, reach);
 #else
-    // Exactly 1 where nothing is hidden.
-    vec3 share =
-        mix(lit.xyz / max(all, vec3(1.0e-30)), vec3(1.0), vec3(greaterThanEqual(lit.xyz, all)));
+    out_first = share_of(sums, reach);
+    for (int once = 0; once < (at.y > at.x ? 1 : 0); once++) {
+        float azimuth = aerial_azimuth(ray);
+        float row = aerial_row(ray);
+        vec3 shadow = vec3(0.0);
+#ifdef SURFACE
+        shadow = air_shadow_at(ray, at.x);
 #endif
-    out_share = vec4(share, lit.w - ray.begin_m);
+        add_step(ray, azimuth, row, at.x, at.y, shadow, sums);
+        out_first = share_of(sums, reach);
+        add_step(ray, azimuth, row, at.y, at.z, shadow, sums);
+    }
+    out_second = share_of(sums, reach);
+#endif
+    out_lit = vec4(sums.lit, lit.w);
+    out_all = vec4(sums.all, 0.0);
 }

@@ -16,7 +16,8 @@ uniform vec2 u_grid;          // cells of the grid
 
 layout(location = 0) out vec4 out_lit;
 layout(location = 1) out vec4 out_all;
-layout(location = 2) out vec4 out_share;
+layout(location = 2) out vec4 out_first; // of steps that are still to come
+layout(location = 3) out vec4 out_second;
 
 const float SKY = 1.0e30;
 
@@ -43,5 +44,6 @@ void main()
 {
     out_lit = vec4(0.0, 0.0, 0.0, find_reach());
     out_all = vec4(0.0);
-    out_share = vec4(0.0);
+    out_first = vec4(0.0);
+    out_second = vec4(0.0);
 }
