@@ -71,6 +71,7 @@ static void finish_programs(struct cloud_march *m)
 {
     gpu_program_finish(&m->march);
     gpu_program_finish(&m->filter);
+    gpu_program_finish(&m->sharpen);
     gpu_program_finish(&m->join);
     gpu_program_finish(&m->find_hidden);
     gpu_program_finish(&m->shade);
@@ -86,9 +87,12 @@ static void finish_targets(struct cloud_march *m)
     }
     cloud_history_forget(&m->history);
     gpu_target_finish(&m->joined_target);
+    gpu_target_finish(&m->sharpened_target);
     gpu_target_finish(&m->hidden_target);
     gpu_target_finish(&m->shades_target);
     gpu_texture_finish(&m->joined);
+    gpu_texture_finish(&m->ends);
+    gpu_texture_finish(&m->sharpened);
     gpu_texture_finish(&m->hidden);
     gpu_texture_finish(&m->shades);
     m->width = m->height = 0;
@@ -127,6 +131,7 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", view->air->peaked_count);
     const char *const surface[] = {is_bare ? NULL : "SURFACE", NULL};
     const char *const filter[] = {"FILTER", is_bare ? NULL : "SURFACE", NULL};
+    const char *const sharpen[] = {"SHARPEN", NULL};
     const char *const nothing[] = {NULL};
     const char *march[4] = {peaked};
     size_t count = 1;
@@ -139,6 +144,9 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     trl_result result = make_program(m->gpu, "cloud/march.frag", march, &m->march);
     if (result == TRL_OK) {
         result = make_program(m->gpu, "cloud/join.frag", filter, &m->filter);
+    }
+    if (result == TRL_OK) {
+        result = make_program(m->gpu, "cloud/join.frag", sharpen, &m->sharpen);
     }
     if (result == TRL_OK) {
         result = make_program(m->gpu, "cloud/join.frag", surface, &m->join);
@@ -168,6 +176,25 @@ static trl_result make_target(struct cloud_march *m, struct gpu_texture_desc *de
     return result == TRL_OK ? gpu_target_init(m->gpu, &colors, target) : result;
 }
 
+// Fours of rays: joined, with where they end, and sharpened.
+static trl_result make_joined(struct cloud_march *m, struct gpu_texture_desc desc)
+{
+    desc.label = "clouds joined";
+    trl_result result = gpu_texture_init(m->gpu, &desc, &m->joined);
+    if (result == TRL_OK) {
+        result = make_target(m, &desc, &m->sharpened, &m->sharpened_target);
+    }
+    if (result == TRL_OK) {
+        desc.format = GPU_FORMAT_R32F;
+        result = gpu_texture_init(m->gpu, &desc, &m->ends);
+    }
+    const struct gpu_target_desc joined = {
+        .label = desc.label,
+        .color_count = 2,
+        .colors = {{.texture = &m->joined}, {.texture = &m->ends}}};
+    return result == TRL_OK ? gpu_target_init(m->gpu, &joined, &m->joined_target) : result;
+}
+
 static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *picture)
 {
     if (m->width == picture->width && m->height == picture->height) {
@@ -187,12 +214,9 @@ static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *pi
         result = make_target(m, &desc, &m->clouds[i], &m->clouds_target[i]);
     }
     if (result == TRL_OK) {
-        desc.label = "clouds joined";
-        desc.filter = GPU_FILTER_LINEAR; // join.frag looks between its texels
-        result = make_target(m, &desc, &m->joined, &m->joined_target);
+        result = make_joined(m, desc);
     }
     desc.label = "hidden by clouds";
-    desc.filter = GPU_FILTER_NEAREST;
     desc.format = GPU_FORMAT_R8;
     desc.width = (picture->width + GPU_HIDE_SQUARE - 1) / GPU_HIDE_SQUARE;
     desc.height = (picture->height + GPU_HIDE_SQUARE - 1) / GPU_HIDE_SQUARE;
@@ -264,7 +288,7 @@ static float find_sharpness(const struct cloud_march *march, const struct cloud_
     return (float)fmax(0, fmin(1, (log(fmax(texels, 1)) / log(2) - 4) / 2));
 }
 
-trl_result cloud_march_join(struct cloud_march *march, const struct cloud_view *view)
+static trl_result join_fours(struct cloud_march *march, const struct cloud_view *view)
 {
     const struct gpu_pass filter = {.target = &march->joined_target};
     set_view(view, &march->filter);
@@ -274,13 +298,28 @@ trl_result cloud_march_join(struct cloud_march *march, const struct cloud_view *
     if (result != TRL_OK) {
         return result;
     }
+    const struct gpu_pass sharpen = {.target = &march->sharpened_target};
+    gpu_program_set_texture(&march->sharpen, "u_joined", &march->joined);
+    gpu_program_set_texture(&march->sharpen, "u_ends", &march->ends);
+    gpu_pass_begin(march->gpu, &sharpen);
+    return gpu_draw_fullscreen(&march->sharpen, "clouds");
+}
+
+trl_result cloud_march_join(struct cloud_march *march, const struct cloud_view *view)
+{
+    const float sharpness = find_sharpness(march, view);
+    const trl_result result = sharpness < 1 ? join_fours(march, view) : TRL_OK;
+    if (result != TRL_OK) {
+        return result;
+    }
     const struct gpu_pass join = {.target = view->target,
                                   .state = {.blend = GPU_BLEND_PREMULTIPLIED}};
     set_view(view, &march->join);
     gpu_program_set_texture(&march->join, "u_clouds", &march->clouds[march->now]);
-    gpu_program_set_texture(&march->join, "u_joined", &march->joined);
+    gpu_program_set_texture(&march->join, "u_joined", &march->sharpened);
+    gpu_program_set_texture(&march->join, "u_ends", &march->ends);
     gpu_program_set_texture(&march->join, "u_hidden", &march->hidden);
-    gpu_program_set_float(&march->join, "u_sharp", find_sharpness(march, view));
+    gpu_program_set_float(&march->join, "u_sharp", sharpness);
     gpu_pass_begin(march->gpu, &join);
     return gpu_draw_fullscreen(&march->join, "clouds");
 }

@@ -8,7 +8,8 @@
 //     in   position   RGBA32F  of the ground (frame/ground.h), or none for a bare sphere
 //          radiance   RGBA32F  as the sky and what is beyond the air left it
 //     out  clouds     RGBA32F  of every second pixel: light, 1 - transmittance; scratch
-//          joined     RGBA32F  of each four of those; scratch
+//          joined     RGBA32F  of each four of those; scratch, with where their rays end
+//          sharpened  RGBA32F  the same with edges as they were; scratch
 //          hidden     R8       of squares of pixels (gpu/hide.h): what clouds hide of
 //                              it, see cloud/hidden.frag
 //          shade      RG32F    of every second pixel: what clouds leave of the star's light on its
@@ -39,11 +40,12 @@ struct cloud_march {
     bool is_made; // with the programs for:
     bool is_bare, has_march;
     int peaked_count;
-    struct gpu_program march, filter, join, find_hidden, shade;
+    struct gpu_program march, filter, sharpen, join, find_hidden, shade;
     uint32_t width, height;       // of the last picture
     struct gpu_texture clouds[2]; // this frame's and the one before
-    struct gpu_texture joined, hidden, shades;
-    struct gpu_target clouds_target[2], joined_target, hidden_target, shades_target;
+    struct gpu_texture joined, ends, sharpened, hidden, shades;
+    struct gpu_target clouds_target[2], joined_target, sharpened_target, hidden_target;
+    struct gpu_target shades_target;
     int now; // which of both is this frame's
     struct cloud_history history;
     struct cloud_deck deck;
