@@ -97,6 +97,24 @@ Part part_of(Ray ray, int index, float end)
     return part;
 }
 
+// The nearest part that begins at `here` or beyond; an empty one: there is none.
+Part next_part(Ray ray, float here, float end)
+{
+    Part next = Part(1.0e30, 1.0e30, 0);
+    int k = 0;
+    do {
+        Part part = part_of(ray, k, end);
+        if (part.to > part.from && part.from >= here && part.from < next.from) {
+            next = part;
+        }
+        k++;
+    } while (k < 2 * u_cloud_layers);
+    if (next.from > 0.9e30) {
+        next = Part(0.0, 0.0, 0);
+    }
+    return next;
+}
+
 // Of the texels that stand for every second pixel.
 ivec2 find_texel()
 {
@@ -224,35 +242,20 @@ void main()
     lighting.phases = vec2(cloud_phase(ray.nu, 1.0), cloud_phase(ray.nu, CLOUD_TURNED));
     vec2 four = spread_four();
     float pixel_rad = u_disc.z;
-    float left = 1.0;       // transmittance of the clouds so far
-    vec4 bands = vec4(0.0); // of the clouds
-    vec3 air = vec3(0.0);   // XYZ of the air before them
-    float here = 0.0;
-    float first_m = 0.0;     // where a layer begins
+    float left = 1.0;        // transmittance of the clouds so far
+    vec4 bands = vec4(0.0);  // of the clouds
+    vec3 air = vec3(0.0);    // XYZ of the air before them
     float distances_m = 0.0; // of clouds, times what they take
-    for (int n = 0; n < 2 * u_cloud_layers; n++) {
-        // The nearest part that begins here or beyond.
-        Part part;
-        part.from = 1.0e30;
-        part.to = 1.0e30;
-        part.layer = 0;
-        for (int k = 0; k < 2 * u_cloud_layers; k++) {
-            Part other = part_of(ray, k, end);
-            if (other.to > other.from && other.from >= here && other.from < part.from) {
-                part = other;
-            }
-        }
-        if (part.from > 0.9e30 || left < OPAQUE) {
-            break;
-        }
-        first_m = first_m > 0.0 ? first_m : max(part.from, 1.0);
+    Part part = next_part(ray, 0.0, end);
+    float first_m = part.to > part.from ? max(part.from, 1.0) : 0.0; // where a layer begins
+    // Loops end at their end: llvmpipe runs a body once more, for nothing, where the test is before
+    // it, and all that a branch leaves out.
+    do {
         CloudLayer layer = cloud_layer(part.layer);
         float texel = cloud_texel(layer);
         float near = part.from;
-        for (int slice = 1; slice <= SLICES; slice++) {
-            if (near >= part.to || left < OPAQUE) {
-                break;
-            }
+        int slice = 1;
+        do {
             // Slices, and steps, grow with the distance, and not with how far the ray goes on: else
             // they would change where rays graze a layer, which shows as a line.
             float far = min(near + max(LEAST_SLICE * texel, GROWTH * near), part.to);
@@ -284,64 +287,70 @@ void main()
             float moment = 0.0; // of s
             Shares sum = Shares(0.0, 0.0, 0.0, 0.0, 0.0);
             Span span = first_span(layer, ray, s, weather, box);
-            for (int i = 0; i < PLACES; i++) {
-                // Through air and cloud until there is enough to be lit. Where nothing is skipped
-                // by a branch, a loop of its own keeps light from being looked for in empty air.
+            int places = 0;
+            bool is_lit = false;
+            do {
+                // Through air and cloud until there is enough to be lit: light is not looked for
+                // in empty air.
                 float enough = STEP_DEPTH / left;
                 float thick = LONG_DEPTH / left; // of a step, at most
                 float depth = 0.0;
                 float depth_s = 0.0;
                 float cover = 0.0;
-                for (int k = 0; k < LOOKS; k++) {
-                    if (s >= far || left < OPAQUE || depth > enough ||
-                        (depth > LEAST_DEPTH && !is_near)) {
-                        break;
-                    }
-                    for (int once = 0; once < (s >= span.to ? 1 : 0); once++) {
+                int looks = 0;
+                bool goes_on = s < far;
+                do {
+                    if (s >= span.to) {
                         // In no more than a tile are places on a line.
                         float ahead = min(max(float(COVER_STEPS) * usual, 4.0 * layer.form.w),
                                           max(1.0 / layer.grain.x, 2.0 * usual));
                         span = next_span(layer, ray, span, min(s + ahead, far), weather, box);
                     }
-                    float step_m = min(stride, span.to - s);
-                    float at = s + offset * step_m;
-                    cover = mix(span.first, span.last, part_at(span, at));
-                    CloudLook look = cloud_look(layer, places_at(span, at), cover,
-                                                max(span.first, span.last), rise, box);
-                    is_near = look.is_near;
-                    float own = look.extinction * step_m;
-                    // A step that was too long for the cloud that it meets is made again.
-                    bool is_again = !is_inside && own > (stride > usual ? LEAST_DEPTH : thick);
-                    is_inside = own > LEAST_DEPTH;
-                    stride = usual * find_stride(look, usual, thick, texel);
-                    own = is_again ? 0.0 : own;
-                    step_m = is_near ? step_m : max(step_m, at - s + layer.form.w);
-                    step_m = is_again ? 0.0 : step_m;
-                    depth += own;
-                    depth_s += own * at;
-                    s += step_m;
+                    do {
+                        if (goes_on) {
+                            float step_m = min(stride, span.to - s);
+                            float at = s + offset * step_m;
+                            cover = mix(span.first, span.last, part_at(span, at));
+                            CloudLook look = cloud_look(layer, places_at(span, at), cover,
+                                                        max(span.first, span.last), rise, box);
+                            is_near = look.is_near;
+                            float own = look.extinction * step_m;
+                            // A step that was too long for the cloud that it meets is made again.
+                            bool is_again =
+                                !is_inside && own > (stride > usual ? LEAST_DEPTH : thick);
+                            is_inside = own > LEAST_DEPTH;
+                            stride = usual * find_stride(look, usual, thick, texel);
+                            own = is_again ? 0.0 : own;
+                            step_m = is_near ? step_m : max(step_m, at - s + layer.form.w);
+                            step_m = is_again ? 0.0 : step_m;
+                            depth += own;
+                            depth_s += own * at;
+                            s += step_m;
+                        }
+                        looks++;
+                        goes_on = looks < LOOKS && s < far && depth <= enough &&
+                                  (depth <= LEAST_DEPTH || is_near);
+                    } while (goes_on && s < span.to);
+                } while (goes_on);
+                is_lit = depth > LEAST_DEPTH;
+                if (is_lit) {
+                    float at = depth_s / depth;
+                    Shares shares =
+                        shares_at(layer, ray.direction * at, places_at(span, at), cover, lighting);
+                    float weight = left * (1.0 - exp(-depth));
+                    sum.sun += shares.sun * weight;
+                    sum.above += shares.above * weight;
+                    sum.below += shares.below * weight;
+                    sum.turned += shares.turned * weight;
+                    sum.horizon += shares.horizon * weight;
+                    moment += at * weight;
+                    left -= weight;
                 }
-                if (depth <= LEAST_DEPTH) {
-                    break;
-                }
-                float at = depth_s / depth;
-                Shares shares =
-                    shares_at(layer, ray.direction * at, places_at(span, at), cover, lighting);
-                float weight = left * (1.0 - exp(-depth));
-                sum.sun += shares.sun * weight;
-                sum.above += shares.above * weight;
-                sum.below += shares.below * weight;
-                sum.turned += shares.turned * weight;
-                sum.horizon += shares.horizon * weight;
-                moment += at * weight;
-                left -= weight;
-            }
+                places++;
+            } while (is_lit && places < PLACES && s < far && left >= OPAQUE);
             float taken = left_before - left;
             distances_m += moment;
-            for (int once = 0; once < 1; once++) {
-                if (taken <= 0.0) {
-                    break;
-                }
+            if (taken > 0.0) {
                 float at = moment / taken;
                 vec3 lit_at = ray.direction * at;
                 Lights lights =
@@ -357,9 +366,10 @@ void main()
                 bands += (lights.sun * sum.sun + max(sky, 0.0)) * before.transmittance;
             }
             near = far;
-        }
-        here = part.to;
-    }
+            slice++;
+        } while (slice <= SLICES && near < part.to && left >= OPAQUE);
+        part = next_part(ray, part.to, end);
+    } while (part.to > part.from && left >= OPAQUE);
     float empty_m = first_m > 0.0 ? first_m : min(end, 1.0e7);
     out_distance = log(left < 0.99 ? max(distances_m / (1.0 - left), 1.0) : empty_m);
     // What is left of a cloud that is all but opaque is like the rest.
