@@ -14,6 +14,7 @@ layout(location = 0) out vec4 out_deck;
 
 const int STAR_PLACES = 8;
 const int COLUMN_PLACES = 4;
+const float LEAST_COVER = 1.0e-4;
 
 // The place on the sphere that a texel stands for; w: its width, m.
 vec4 find_crossing()
@@ -38,10 +39,12 @@ float find_star_depth(CloudLayer layer, vec3 crossing, float width)
     CloudBox box = cloud_whole_box(layer, cloud_level(layer, max(width, 0.5 * step_m)), 0.5);
     float cover = cloud_gathered(layer, middle, cloud_cover(layer, middle, width), box);
     float depth = 0.0;
-    for (int i = 0; i < (cover > 1.0e-4 ? STAR_PLACES : 0); i++) {
+    int i = 0;
+    do {
         vec3 there = crossing + u_sun * (base + (float(i) + 0.5) * step_m);
         depth += cloud_coarse(layer, there, cover, box).x * step_m;
-    }
+        i++;
+    } while (i < STAR_PLACES && cover > LEAST_COVER);
     return depth;
 }
 
@@ -55,7 +58,8 @@ vec2 find_column(CloudLayer layer, vec3 crossing, float width)
     float cover = cloud_gathered(layer, middle, cloud_cover(layer, middle, width), box);
     float most = 0.0;
     float depth = 0.0;
-    for (int i = 0; i < (cover > 1.0e-4 ? COLUMN_PLACES : 0); i++) {
+    int i = 0;
+    do {
         float high = (float(i) + 0.5) / float(COLUMN_PLACES) - 0.5;
         vec2 coarse = cloud_coarse(layer, middle + up * (high * thick_m), cover, box);
         // The part of the box that is cloud, from what cloud_extinction made of it.
@@ -63,7 +67,8 @@ vec2 find_column(CloudLayer layer, vec3 crossing, float width)
         part = clamp(part, 0.0, 1.0);
         most = max(most, part);
         depth += coarse.y * part * thick_m / float(COLUMN_PLACES);
-    }
+        i++;
+    } while (i < COLUMN_PLACES && cover > LEAST_COVER);
     float closed = 1.0 - pow(max(1.0 - most, 1.0e-6), 1.0 / layer.grain.w);
     return vec2(closed, 1.0 / (1.0 + CLOUD_DIFFUSE_DEPTH * depth / max(closed, 1.0e-3)));
 }
@@ -78,7 +83,8 @@ void main()
     float left = 1.0;
     float heights = 0.0; // altitudes, by how much the clouds take
     float taken = 0.0;
-    for (int index = 0; index < u_cloud_layers; index++) {
+    int index = 0;
+    do {
         CloudLayer layer = cloud_layer(index);
         depth += find_star_depth(layer, crossing, found.w);
         vec2 column = find_column(layer, crossing, wide);
@@ -87,7 +93,8 @@ void main()
         left *= 1.0 - column.x * (1.0 - column.y);
         heights += takes * 0.5 * (layer.shell.x + layer.shell.y);
         taken += takes;
-    }
+        index++;
+    } while (index < u_cloud_layers);
     float cover = 1.0 - clear;
     out_deck = vec4(depth, heights / taken, cover, 1.0 - (1.0 - left) / max(cover, 1.0e-6));
 }

@@ -90,8 +90,7 @@ CloudPlaces cloud_places(CloudLayer layer, vec3 place)
 {
     float height = cloud_height(layer, place);
     vec3 unturned = cloud_unturned(layer, place);
-    // Loops, since branches save nothing.
-    for (int once = 0; once < (layer.form.y != 0.0 ? 1 : 0); once++) {
+    if (layer.form.y != 0.0) {
         vec2 flat_place = layer.eye.xy + unturned.xy;
         vec2 east = vec2(-flat_place.y, flat_place.x) / max(length(flat_place), 1.0e-3);
         unturned.xy += east * cloud_lag(height, layer.form.y);
@@ -102,7 +101,7 @@ CloudPlaces cloud_places(CloudLayer layer, vec3 place)
     places.height = height;
     places.noise = layer.anchor + bent * layer.grain.x;
     places.finer = layer.detail_anchor + bent * finer;
-    for (int once = 0; once < (layer.form.x > 0.0 ? 1 : 0); once++) {
+    if (layer.form.x > 0.0) {
         vec3 there = layer.eye + bent;
         float across = length(there.xy);
         float along = cloud_longitude(there.y, there.x) * layer.form.x;
@@ -209,9 +208,9 @@ float cloud_gathered(CloudLayer layer, vec3 place, float cover, CloudBox box)
     float scale = layer.grain.x / CLOUD_FIELD_TILES;
     vec3 at = layer.field_anchor + cloud_bent(unturned, layer.field_bend, scale) * scale;
     float noise = textureLod(u_cloud_noise, at, box.field_level).x;
-    // A map knows the regions. A loop, since branches save nothing.
+    // A map knows the regions.
     float wide = 0.5;
-    for (int once = 0; once < (u_cloud_volume.w > 0.5 ? 0 : 1); once++) {
+    if (u_cloud_volume.w <= 0.5) {
         vec3 wide_at = layer.wide_anchor + unturned.yzx * (layer.grain.x / CLOUD_WIDE_TILES);
         float wide_level = max(box.level - floor(log2(CLOUD_WIDE_TILES)), 0.0);
         wide = textureLod(u_cloud_noise, wide_at, wide_level).x;
@@ -322,7 +321,8 @@ float cloud_sun_depth(CloudLayer layer, vec3 place, CloudPlaces at, float cover,
     float first = cloud_threshold(cover, cloud_height_signal(at.height, layer.shell.z));
     float sum = 0.0;
     float from = 0.0;
-    for (int i = 1; i <= CLOUD_SUN_PLACES; i++) {
+    int i = 1;
+    do {
         float part = float(i) / float(CLOUD_SUN_PLACES);
         float to = reach * part * part;
         float middle = 0.5 * (from + to);
@@ -330,14 +330,15 @@ float cloud_sun_depth(CloudLayer layer, vec3 place, CloudPlaces at, float cover,
         CloudBox box = cloud_whole_box(layer, level, rest - CLOUD_SUN_LOWER);
         CloudPlaces there = cloud_on_line(line, middle / max(reach, 1.0e-3));
         CloudNoise noise = cloud_coarse_noise(layer, there, box);
-        for (int once = 0; once < (i <= CLOUD_SUN_FINE_PLACES ? 1 : 0); once++) {
+        if (i <= CLOUD_SUN_FINE_PLACES) {
             noise = cloud_finer_noise(layer, there, noise.value, box);
         }
         float kept = exp(-middle / box.way);
         float here = cloud_threshold(cover, cloud_height_signal(there.height, layer.shell.z));
         sum += cloud_from_inside(layer, noise, here, first, kept, box) * (to - from);
         from = to;
-    }
+        i++;
+    } while (i <= CLOUD_SUN_PLACES);
     return sum;
 }
 

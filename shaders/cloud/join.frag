@@ -125,14 +125,13 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float own = find_end(pixel);
     out_clouds = vec4(0.0);
-    // Loops, since branches save nothing.
     bool is_cloudy = texelFetch(u_hidden, pixel / SQUARE, 0).x > 0.0;
-    for (int once = 0; once < (is_cloudy && u_sharp < 1.0 ? 1 : 0); once++) {
+    if (is_cloudy && u_sharp < 1.0) {
         ivec2 first = (pixel + 1) / 2 - 1;
         vec2 part = 0.5 * vec2(pixel - 2 * first - 1);
         out_clouds += (1.0 - u_sharp) * join_four(u_joined, first, part, own, false);
     }
-    for (int once = 0; once < (is_cloudy && u_sharp > 0.0 ? 1 : 0); once++) {
+    if (is_cloudy && u_sharp > 0.0) {
         ivec2 first = pixel / 2;
         vec2 part = 0.5 * vec2(pixel - 2 * first);
         out_clouds += u_sharp * join_four(u_clouds, first, part, own, true);

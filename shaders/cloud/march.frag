@@ -170,7 +170,7 @@ Span first_span(CloudLayer layer, Ray ray, float to, float weather, CloudBox box
     span.line.way.noise = vec3(0.0);
     span.line.way.finer = vec3(0.0);
     span.line.way.height = 0.0;
-    for (int once = 0; once < (weather > LEAST_COVER ? 1 : 0); once++) {
+    if (weather > LEAST_COVER) {
         span.last = cloud_gathered(layer, place, weather, box);
     }
     return span;

@@ -18,6 +18,7 @@ uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, o
 layout(location = 0) out vec2 out_left;
 
 const int PLACES = 10;
+const float LEAST_COVER = 1.0e-4;
 const float SKY_M = 1.0e9;
 
 void main()
@@ -38,7 +39,8 @@ void main()
     float altitude = cloud_altitude(place);
     float width = length(place) * u_disc.z;
     float depth = 0.0;
-    for (int index = 0; index < (is_ground ? u_cloud_layers : 0); index++) {
+    int index = 0;
+    do {
         CloudLayer layer = cloud_layer(index);
         float base = max(layer.shell.x - altitude, 0.0) / sun_mu;
         float top = max(layer.shell.y - altitude, 0.0) / sun_mu;
@@ -46,12 +48,16 @@ void main()
         CloudBox box = cloud_whole_box(layer, cloud_level(layer, max(width, 0.5 * step_m)), 0.5);
         vec3 middle = place + u_sun * (0.5 * (base + top));
         float cover = cloud_gathered(layer, middle, cloud_cover(layer, middle, width), box);
-        for (int i = 0; i < (cover > 1.0e-4 ? PLACES : 0); i++) {
+        int i = 0;
+        do {
             vec3 there = place + u_sun * (base + (float(i) + 0.5) * step_m);
             depth += cloud_coarse(layer, there, cover, box).x * step_m;
-        }
-    }
+            i++;
+        } while (i < PLACES && cover > LEAST_COVER);
+        index++;
+    } while (index < u_cloud_layers && is_ground);
     // Two streams without absorption: 1 / (1 + 3/4 (1 - g) t) goes through in all.
+    depth = is_ground ? depth : 0.0;
     float distance_m = is_ground ? max(length(place), 1.0e-3) : SKY_M;
     out_left = vec2(1.0 / (1.0 + CLOUD_DIFFUSE_DEPTH * depth), log(distance_m));
 }

@@ -58,8 +58,7 @@ float cloud_cover(CloudLayer layer, vec3 place, float width)
     float inside = cyclone_step(belt.x - belt.z, belt.x, latitude) *
                    (1.0 - cyclone_step(belt.y, belt.y + belt.z, latitude));
     float cover = layer.shell.w * (u_cloud_volume.w > 0.5 ? map : 1.0) * inside;
-    // Loops of no turn cost nothing on the CPU, branches do.
-    for (int once = 0; once < (u_cloud_volume.z > 0.0 ? 1 : 0); once++) {
+    if (u_cloud_volume.z > 0.0) {
         cover = gather_systems(cover, unturned, width);
     }
     for (int i = 0; i < u_cyclones; i++) {
