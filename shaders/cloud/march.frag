@@ -248,8 +248,7 @@ void main()
     float distances_m = 0.0; // of clouds, times what they take
     Part part = next_part(ray, 0.0, end);
     float first_m = part.to > part.from ? max(part.from, 1.0) : 0.0; // where a layer begins
-    // Loops end at their end: llvmpipe runs a body once more, for nothing, where the test is before
-    // it, and all that a branch leaves out.
+    // Loops end at their end: docs/decisions/046.
     do {
         CloudLayer layer = cloud_layer(part.layer);
         float texel = cloud_texel(layer);

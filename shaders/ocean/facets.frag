@@ -49,10 +49,8 @@ vec4 facet(vec3 position, vec4 level, float depth)
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    int count = texelFetch(u_albedo, pixel, 0).a > 0.0 ? 1 : 0;
     o_facet = vec4(0.0);
-    // No branch: a software rasteriser skips nothing of those, but loops that no pixel enters.
-    for (int i = 0; i < count; i++) {
+    if (texelFetch(u_albedo, pixel, 0).a > 0.0) {
         float code = texelFetch(u_lights, pixel, 0).a;
         float depth = code > 0.0 ? sea_code_depth(code) : 1.0e6;
         vec4 level = u_has_level * texelFetch(u_level, pixel, 0);

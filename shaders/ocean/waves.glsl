@@ -55,6 +55,26 @@ float waves_left(float square, float longest, float depth)
     return max(square, 0.0) * (shoal * shoal);
 }
 
+// A group of four. `left`: as u_wave_all.xy, of what is not summed yet.
+GerstnerSum waves_add_group(GerstnerSum sum, int group, GerstnerPlace p, WavesWindow window,
+                            float near, inout vec2 left)
+{
+    vec4 v[7];
+    for (int i = 0; i < 7; i++) {
+        v[i] = texelFetch(u_waves, ivec2(i, group), 0);
+    }
+    for (int i = 0; i < 4; i++) {
+        GerstnerWave w =
+            GerstnerWave(v[0][i], v[1][i], v[2][i], v[3][i], v[4][i], v[5][i], v[6][i]);
+        float steep = w.amplitude * w.wavenumber;
+        float press = steep * sea_breaking(w.wavenumber, u_wave_range.w);
+        left -= 0.5 * vec2(steep * steep, press * press);
+        w.amplitude *= gerstner_shoal(w.wavenumber, window.depth);
+        sum = waves_add(sum, w, p, window, near, press);
+    }
+    return sum;
+}
+
 // All waves at a place. What is not shown is in lost_square. The longest come first: where the
 // window leaves no more of a wave, the loop ends, and of the others only the sums count.
 GerstnerSum waves_sum(GerstnerPlace p, WavesWindow window)
@@ -63,26 +83,21 @@ GerstnerSum waves_sum(GerstnerPlace p, WavesWindow window)
     float near = 1.0 - smoothstep(0.5 * WAVES_REACH, WAVES_REACH, length(vec2(p.vx, p.vy)));
     float shortest = gerstner_last(near, window.least);
     vec2 left = u_wave_all.xy;
-    for (int g = 0; g < u_wave_groups; g++) {
-        vec4 v[7];
-        for (int i = 0; i < 7; i++) {
-            v[i] = texelFetch(u_waves, ivec2(i, g), 0);
+    int g = 0;
+    float longest = texelFetch(u_waves, ivec2(4, 0), 0).x;
+    bool goes_on = u_wave_groups > 0 && longest <= shortest;
+    do {
+        if (goes_on) {
+            sum = waves_add_group(sum, g, p, window, near, left);
+            g++;
+            longest = texelFetch(u_waves, ivec2(4, min(g, u_wave_groups - 1)), 0).x;
+            goes_on = g < u_wave_groups && longest <= shortest;
         }
-        if (v[4].x > shortest) {
-            sum.lost_square += waves_left(left.x, v[4].x, window.depth);
-            sum.press_square += max(left.y, 0.0);
-            sum.press_lost += max(left.y, 0.0);
-            break;
-        }
-        for (int i = 0; i < 4; i++) {
-            GerstnerWave w =
-                GerstnerWave(v[0][i], v[1][i], v[2][i], v[3][i], v[4][i], v[5][i], v[6][i]);
-            float steep = w.amplitude * w.wavenumber;
-            float press = steep * sea_breaking(w.wavenumber, u_wave_range.w);
-            left -= 0.5 * vec2(steep * steep, press * press);
-            w.amplitude *= gerstner_shoal(w.wavenumber, window.depth);
-            sum = waves_add(sum, w, p, window, near, press);
-        }
+    } while (goes_on);
+    if (g < u_wave_groups) {
+        sum.lost_square += waves_left(left.x, longest, window.depth);
+        sum.press_square += max(left.y, 0.0);
+        sum.press_lost += max(left.y, 0.0);
     }
     sum.lost_square += u_wave_range.z;
     return sum;

@@ -92,7 +92,9 @@ vec3 follow(Way way, ivec2 size)
     int level = 1;
     vec2 slow = max(abs(way.step.xy), vec2(1.0e-6));
     vec2 ahead = step(vec2(0.0), way.step.xy);
-    for (int i = 0; i < LOOKS && s < way.end; i++) {
+    int i = 0;
+    bool goes_on;
+    do {
         float side = float(1 << (2 * level));
         vec3 at = way.from + way.step * (s + STEP);
         vec2 square = floor(at.xy / side);
@@ -102,14 +104,16 @@ vec3 follow(Way way, ivec2 size)
         float nearest = texelFetch(u_near, square_texel(ivec2(square), level, size), 0).x;
         bool may_hide = min(at.z, leave) * (1.0 + BEHIND) < nearest;
         bool is_pixel = level == 0;
-        known = may_hide && is_pixel && at.z * (1.0 + THICKNESS) > nearest ? 1.0 : 0.0;
-        if (known > 0.5) {
-            break;
+        known =
+            s < way.end && may_hide && is_pixel && at.z * (1.0 + THICKNESS) > nearest ? 1.0 : 0.0;
+        i++;
+        if (known < 0.5) {
+            bool is_past = is_pixel || !may_hide;
+            s = is_past ? next : s;
+            level = is_past ? min(level + 1, 3) : level - 1;
         }
-        bool goes_on = is_pixel || !may_hide;
-        s = goes_on ? next : s;
-        level = goes_on ? min(level + 1, 3) : level - 1;
-    }
+        goes_on = known < 0.5 && s < way.end && i < LOOKS;
+    } while (goes_on);
     vec3 at = way.from + way.step * (min(s, way.end) + STEP);
     ivec2 pixel = clamp(ivec2(at.xy), ivec2(0), size - 1);
     // Ground that the border cuts goes on there, the less surely the higher above it the ray is.
@@ -198,10 +202,8 @@ void main()
         pixel = water > most ? other : pixel;
         most = max(most, water);
     }
-    int count = most > 0.0 ? 1 : 0;
     Mirrored mirrored = Mirrored(vec4(0.0, 0.0, 0.0, -1.0), 0.0);
-    // No branch, as in ocean/facets.frag.
-    for (int i = 0; i < count; i++) {
+    if (most > 0.0) {
         mirrored = reflection(pixel, size);
     }
     out_reflection = mirrored.light;

@@ -20,8 +20,8 @@ void main()
     vec4 own = texelFetch(u_reflection, texel, 0);
     vec4 sum = vec4(0.0);
     float weights = 0.0;
-    int count = own.a < 0.0 || spread == 0.0 ? 0 : 25; // no branch, as in ocean/facets.frag
-    for (int n = 0; n < count; n++) {
+    int n = 0;
+    do {
         ivec2 apart = ivec2(n % 5, n / 5) - 2;
         ivec2 place = clamp(texel + apart, ivec2(0), last);
         vec4 near = texelFetch(u_reflection, place, 0);
@@ -30,6 +30,7 @@ void main()
         weight *= near.a < 0.0 ? 0.0 : texelFetch(u_weight, place, 0).x;
         sum += weight * near;
         weights += weight;
-    }
+        n++;
+    } while (n < 25 && own.a >= 0.0 && spread > 0.0);
     out_reflection = own.a < 0.0 ? own : mix(own, sum / max(weights, 1.0e-9), spread);
 }

@@ -40,8 +40,10 @@ void main()
     int side = int(u_square.z);
     ivec2 first = (ivec2(gl_FragCoord.xy) - ivec2(u_square.xy)) * side;
     float nearest = 0.0;
-    for (int i = 0; i < side * side; i++) {
+    int i = 0;
+    do {
         nearest = max(nearest, nearness_at(min(first + ivec2(i % side, i / side), size - 1)));
-    }
+        i++;
+    } while (i < side * side);
     o_nearness = nearest;
 }

@@ -32,7 +32,8 @@ BiomePlace biome_place(float altitude, float slope, float latitude, float moistu
 vec3 biome_albedo(vec3 below, BiomePlace p)
 {
     vec3 c = below;
-    for (int i = 0; i < u_biome_count; i++) {
+    int i = 0;
+    do {
         vec4 low = u_biome_low[i];
         vec4 high = u_biome_high[i];
         vec4 moist = u_biome_moisture[i];
@@ -48,6 +49,7 @@ vec3 biome_albedo(vec3 below, BiomePlace p)
         part *= biome_within(x.w, low.w, high.w, feather.w);
         part *= biome_within(biome_fray(p.moisture, moist.z, p.tone), moist.x, moist.y, moist.z);
         c = mix(c, u_biome_albedo[i].rgb * max(1.0 + u_biome_albedo[i].a * p.tone, 0.3), part);
-    }
+        i++;
+    } while (i < u_biome_count);
     return c;
 }

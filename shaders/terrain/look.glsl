@@ -34,10 +34,8 @@ vec2 look_shore(vec3 water, Tangent t, LookGround ground)
 {
     vec2 shore = water.xy;
 #if defined(HAS_DEPTH) && ELEVATION_COUNT > 0 && !defined(HAS_MEAN_SHORES)
-    // No branch, but a loop that dry ground does not enter.
     bool has_bed = any(greaterThan(u_elevation_floors, vec4(LAYER_NO_FLOOR)));
-    int count = water.x > 0.0 || has_bed ? 1 : 0;
-    for (int i = 0; i < count; i++) {
+    if (water.x > 0.0 || has_bed) {
         vec2 bed = layers_linear(0.0, LAYER_NO_FLOOR, t.ground, t.log2_footprint);
         float around = layers_altitude_linear(0.0, t.ground, max(t.log2_footprint, water.z + 1.0));
         float texel = exp2(water.z);
@@ -120,15 +118,16 @@ void look_biomes(BiomePlace place, Relief r, float log2_footprint, inout vec3 al
     float steep = place.place.y;
     place.slope_spread = sqrt(r.unseen);
     place.height_spread = sqrt(r.unseen_height2);
-    // A loop, since a branch would cost as much.
     int last = stones.cover > 0.0 ? 3 : log2_footprint < u_region ? 2 : 1;
-    for (int k = 0; k < last; k++) {
+    int k = 0;
+    do {
         place.tone = k == 1 ? 0.0 : r.tone;
         place.place.y = k == 2 ? max(steep, LOOK_STONE_STEEP) : steep;
         stone = biome_albedo(u_default_albedo, place);
         albedo = k == 0 ? stone : albedo;
         region = k < 2 ? stone : region;
-    }
+        k++;
+    } while (k < last);
 }
 #endif
 

@@ -88,13 +88,15 @@ NoiseGround noise_ground(vec2 geo, float cos_latitude, float log2_footprint)
     float part = lod - float(level);
     NoiseGround g = NoiseGround(vec4(0.0), vec2(0.0), vec2(0.0));
     // A loop, which ends where the next level is not wanted: a branch would fetch it anyway.
-    for (int k = 0; k < (part > 0.0 ? 2 : 1); k++) {
+    int k = 0;
+    do {
         NoiseGround h = noise_ground_at(geo, cos_latitude, level + k);
         float weight = k == 0 ? 1.0 - part : part;
         g.map += weight * h.map;
         g.slope += weight * h.slope;
         g.spread += weight * h.spread;
-    }
+        k++;
+    } while (k < 2 && part > 0.0);
     return g;
 }
 
@@ -233,6 +235,47 @@ void rock_add(int i, NoiseValue n, NoiseView view)
 }
 #endif
 
+// An octave of noise on top of `r`: `level` of its size.
+Relief noise_add(Relief r, NoiseValue n, int i, float level, NoiseView view)
+{
+    float wave = u_noise_size[i].x;
+    float soil = noise_soil(i, view);
+    float size = noise_size(i, view) * level;
+    float rough = relief_soil_size(size, wave, soil);
+    float seen = relief_seen(wave, view.footprint);
+    float before = r.height;
+#ifdef HAS_ROCK
+    if (wave < RELIEF_STONE_LOG2) {
+        stones_add(n, wave, view.footprint, r.past, soil);
+    }
+#endif
+    r = relief_add(r, relief_fold(n, view.ridged), size * seen, rough * seen, u_noise_form.x);
+    float value = size > 0.0 ? seen * n.value : 0.0;
+    r.tone += value * relief_tone(wave);
+    r.shore += value / u_noise_place[i].w;
+    r = noise_hide(r, i, size, rough, before, view);
+    if (wave > RELIEF_STAND_LOG2) {
+        r = relief_stand(r);
+    }
+    return r;
+}
+
+// One of stripes, which run down what is steep.
+Relief noise_cut(Relief r, vec3 at, vec3 up, int i, NoiseView view)
+{
+    vec3 s = vec3(r.fall_x, r.fall_y, r.fall_z);
+    s -= up * dot(s, up);
+    float slope2 = dot(s, s);
+    vec3 along = cross(up, s) * inversesqrt(slope2 + 1e-12);
+    vec3 d = noise_turn(i, along);
+    NoiseValue n = noise_local(noise_stripes(noise_place(i, noise_turn(i, at)), d.x, d.y, d.z), i);
+    float size = noise_size(i, view) * u_noise_form.y * relief_cutting(slope2);
+    float seen = relief_seen(u_noise_size[i].x, view.footprint);
+    float before = r.height;
+    r = relief_cut(r, n, size * seen);
+    return noise_hide(r, i, size, size, before, view);
+}
+
 // The relief that is made on top of `r`. `up` is unit.
 Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
 {
@@ -246,7 +289,8 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
 #ifdef HAS_ROCK
     stones_begin(up, view.climate);
 #endif
-    for (int part = 0; part < parts; part++) {
+    int part = 0;
+    do {
         vec3 left = vec3(r.fall_x, r.fall_y, r.fall_z);
         left -= up * dot(left, up);
         r.cutting = relief_cutting(dot(left, left));
@@ -260,51 +304,37 @@ Relief noise_relief(Relief r, vec3 at, vec3 up, NoiseView view)
             last = rock.part > 0.0 ? last : 0;
         }
 #endif
-        for (; !noise_is_over(i, last, view); i++) {
-            NoiseValue n = noise_local(noise_simplex(noise_place(i, noise_turn(i, at))), i);
+        bool goes_on = !noise_is_over(i, last, view);
+        do {
+            if (goes_on) {
+                NoiseValue n = noise_local(noise_simplex(noise_place(i, noise_turn(i, at))), i);
 #ifdef HAS_ROCK
-            if (part == 2) {
-                rock_add(i, n, view);
-                continue;
-            }
+                if (part == 2) {
+                    rock_add(i, n, view);
+                } else
 #endif
-            float wave = u_noise_size[i].x;
-            float soil = noise_soil(i, view);
-            float level = part == 0 ? 1.0 : mix(u_noise_more.x, 1.0, r.cutting);
-            float size = noise_size(i, view) * level;
-            float rough = relief_soil_size(size, wave, soil);
-            float seen = relief_seen(wave, view.footprint);
-            float before = r.height;
-#ifdef HAS_ROCK
-            if (wave < RELIEF_STONE_LOG2) {
-                stones_add(n, wave, view.footprint, r.past, soil);
+                {
+                    float level = part == 0 ? 1.0 : mix(u_noise_more.x, 1.0, r.cutting);
+                    r = noise_add(r, n, i, level, view);
+                }
+                i++;
+                goes_on = !noise_is_over(i, last, view);
             }
-#endif
-            r = relief_add(r, relief_fold(n, view.ridged), size * seen, rough * seen,
-                           u_noise_form.x);
-            float value = size > 0.0 ? seen * n.value : 0.0;
-            r.tone += value * relief_tone(wave);
-            r.shore += value / u_noise_place[i].w;
-            r = noise_hide(r, i, size, rough, before, view);
-            r = wave > RELIEF_STAND_LOG2 ? relief_stand(r) : r;
-        }
+        } while (goes_on);
         end = part == 2 ? end : i;
-        for (; part == 0 && !noise_is_over(i, u_noise_ends.y, view); i++) {
-            vec3 s = vec3(r.fall_x, r.fall_y, r.fall_z);
-            s -= up * dot(s, up);
-            float slope2 = dot(s, s);
-            vec3 along = cross(up, s) * inversesqrt(slope2 + 1e-12);
-            vec3 d = noise_turn(i, along);
-            NoiseValue n =
-                noise_local(noise_stripes(noise_place(i, noise_turn(i, at)), d.x, d.y, d.z), i);
-            float size = noise_size(i, view) * u_noise_form.y * relief_cutting(slope2);
-            float seen = relief_seen(u_noise_size[i].x, view.footprint);
-            float before = r.height;
-            r = relief_cut(r, n, size * seen);
-            r = noise_hide(r, i, size, size, before, view);
+        goes_on = part == 0 && !noise_is_over(i, u_noise_ends.y, view);
+        do {
+            if (goes_on) {
+                r = noise_cut(r, at, up, i, view);
+                i++;
+                goes_on = !noise_is_over(i, u_noise_ends.y, view);
+            }
+        } while (goes_on);
+        if (part == 0 && i > end) {
+            r = relief_stand(r);
         }
-        r = part == 0 && i > end ? relief_stand(r) : r;
-    }
+        part++;
+    } while (part < parts);
     float below = pow2(view.amplitude) * (end < u_noise_ends.z ? 1.0 : 0.0);
     int next = min(end, u_noise_ends.z - 1);
     r.unseen += RELIEF_SLOPE2 * below * u_noise_size[next].z;

@@ -141,12 +141,14 @@ vec3 air_shadow_at(Ray ray, float distance_m)
 vec2 terrain_leaves(Ray ray, float from_m, float to_m, inout vec3 before)
 {
     vec2 sum = vec2(0.0);
-    for (int i = 1; i <= SHADOW_PARTS; i++) {
+    int i = 1;
+    do {
         float s = mix(from_m, to_m, float(i) / float(SHADOW_PARTS));
         vec3 here = air_shadow_at(ray, s);
         sum += piece_leaves(before, here);
         before = here;
-    }
+        i++;
+    } while (i <= SHADOW_PARTS);
     return sum / float(SHADOW_PARTS);
 }
 #endif
@@ -219,7 +221,8 @@ void add_space(Ray ray, float from, float to, inout Sums sums)
 {
     float azimuth = aerial_azimuth(ray);
     float row = aerial_row(ray);
-    for (int i = 0; i < SPACE_PARTS; i++) {
+    int i = 0;
+    do {
         float x = float(i) / float(SPACE_PARTS);
         float y = float(i + 1) / float(SPACE_PARTS);
         float width = (to - from) * (y * y - x * x);
@@ -228,7 +231,8 @@ void add_space(Ray ray, float from, float to, inout Sums sums)
         Source left = eclipsed(ray, clouded(ray, source, middle), middle);
         sums.lit += (left.first + left.multiple) * width;
         sums.all += (source.first + source.multiple) * width;
-    }
+        i++;
+    } while (i < SPACE_PARTS);
 }
 #else
 // `shadow` is the terrain's where the step begins, and comes back as that of its end.
@@ -254,25 +258,21 @@ void main()
     float end = max(min(ray.end_m, lit.w), ray.begin_m);
     vec3 at = clamp(ray.begin_m + u_steps, ray.begin_m, end);
     float reach = lit.w - ray.begin_m;
-    // Loops, since branches save nothing: many rays end before the last steps.
 #ifdef TO_SPACE
-    for (int once = 0; once < (at.z > at.x ? 1 : 0); once++) {
+    if (at.z > at.x) {
         add_space(ray, at.x, at.z, sums);
     }
     out_first = share_of(sums, reach);
 #else
-    out_first = share_of(sums, reach);
-    for (int once = 0; once < (at.y > at.x ? 1 : 0); once++) {
-        float azimuth = aerial_azimuth(ray);
-        float row = aerial_row(ray);
-        vec3 shadow = vec3(0.0);
+    float azimuth = aerial_azimuth(ray);
+    float row = aerial_row(ray);
+    vec3 shadow = vec3(0.0);
 #ifdef SURFACE
-        shadow = air_shadow_at(ray, at.x);
+    shadow = air_shadow_at(ray, at.x);
 #endif
-        add_step(ray, azimuth, row, at.x, at.y, shadow, sums);
-        out_first = share_of(sums, reach);
-        add_step(ray, azimuth, row, at.y, at.z, shadow, sums);
-    }
+    add_step(ray, azimuth, row, at.x, at.y, shadow, sums);
+    out_first = share_of(sums, reach);
+    add_step(ray, azimuth, row, at.y, at.z, shadow, sums);
     out_second = share_of(sums, reach);
 #endif
     out_lit = vec4(sums.lit, lit.w);

@@ -17,12 +17,15 @@ vec4 fill(int layer, float distance_m)
     ivec2 last = textureSize(u_shares, 0).xy - 1;
     vec4 own = texelFetch(u_shares, ivec3(here, layer), 0);
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < (own.w >= distance_m ? 0 : 9); i++) {
+    int i = 0;
+    do {
         ivec2 at = clamp(here + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
         vec4 there = texelFetch(u_shares, ivec3(at, layer), 0);
         sum += vec4(there.xyz, 1.0) * (there.w >= distance_m ? 1.0 : 0.0);
-    }
-    return vec4(sum.w < 0.5 ? own.xyz : sum.xyz / max(sum.w, 1.0), 1.0);
+        i++;
+    } while (i < 9 && own.w < distance_m);
+    bool is_own = own.w >= distance_m || sum.w < 0.5;
+    return vec4(is_own ? own.xyz : sum.xyz / max(sum.w, 1.0), 1.0);
 }
 
 void main()
