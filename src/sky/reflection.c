@@ -29,6 +29,8 @@ static void finish_programs(struct reflection *r)
 {
     gpu_program_finish(&r->from_surface);
     gpu_program_finish(&r->from_nearest);
+    gpu_program_finish(&r->seen);
+    gpu_condition_finish(&r->has_land);
     gpu_program_finish(&r->land_of);
     gpu_program_finish(&r->follow);
     gpu_program_finish(&r->filter);
@@ -46,7 +48,7 @@ static trl_result fit_programs(struct reflection *r, struct gpu *gpu)
     if (r->filter.name) {
         return TRL_OK;
     }
-    static const char *const surface[] = {"SURFACE"};
+    static const char *const surface[] = {"SURFACE"}, *const seen[] = {"SEEN"};
     struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
                                     .fragment = "sky/reflection_near.frag",
                                     .defines = surface};
@@ -55,6 +57,13 @@ static trl_result fit_programs(struct reflection *r, struct gpu *gpu)
     desc.define_count = 1;
     if (result == TRL_OK) {
         result = gpu_program_init(gpu, &desc, &r->from_surface);
+    }
+    desc.defines = seen;
+    if (result == TRL_OK) {
+        result = gpu_program_init(gpu, &desc, &r->seen);
+    }
+    if (result == TRL_OK) {
+        result = gpu_condition_init(gpu, &r->has_land);
     }
     desc.fragment = "sky/reflection_land.frag";
     desc.define_count = 0;
@@ -162,32 +171,62 @@ static trl_result fit_targets(struct reflection *r, struct gpu *gpu, const struc
     return result;
 }
 
-static trl_result draw_squares(struct gpu_program *program, const struct gpu_target *target,
-                               struct gpu_rect rect, uint32_t side)
+// What a pass finds the nearest land of: squares of a texture, of which each texel takes `side` a
+// side.
+struct squares {
+    const struct gpu_texture *texture;
+    struct gpu_rect rect;
+    uint32_t side;
+};
+
+static trl_result draw_squares(struct gpu_program *program, const struct squares *from,
+                               const struct gpu_target *target, struct gpu_rect rect)
 {
-    const float square[3] = {(float)rect.x, (float)rect.y, (float)side};
+    const float square[3] = {(float)rect.x, (float)rect.y, (float)from->side};
     const struct gpu_pass pass = {.target = target, .viewport = rect};
+    if (from->texture) {
+        const float source[4] = {(float)from->rect.x, (float)from->rect.y, (float)from->rect.width,
+                                 (float)from->rect.height};
+        gpu_program_set_texture(program, "u_nearest", from->texture);
+        gpu_program_set_vec4(program, "u_source", source);
+    }
     gpu_program_set_vec3(program, "u_square", square);
     gpu_pass_begin(program->gpu, &pass);
     return gpu_draw_fullscreen(program, "nearest land");
 }
 
+// Pixels from the surface; squares of 4 from those, in a texture of their own, since `near` is read;
+// the others from these.
 static trl_result draw_nearest(struct reflection *r, const struct sky_view *view)
 {
-    struct gpu_rect rect = {0, 0, r->nearest.width, r->nearest.height};
+    const struct squares surface = {.side = 1};
+    const struct squares pixels = {&r->near, find_squares(r, 0), SQUARE};
+    const struct gpu_rect fours = {0, 0, r->nearest.width, r->nearest.height};
     gpu_program_set_texture(&r->from_surface, "u_position", view->surface.position);
     gpu_program_set_texture(&r->from_surface, "u_kinds", view->surface.kinds);
     gpu_program_set_texture(&r->from_surface, "u_albedo", view->surface.albedo);
     sky_set_vec3(&r->from_surface, "u_forward", view->camera->forward);
-    trl_result result = draw_squares(&r->from_surface, &r->nearest_target, rect, SQUARE);
-    gpu_program_set_texture(&r->from_nearest, "u_nearest", &r->nearest);
-    uint32_t side = 1;
-    for (int level = 0; level < LEVELS && result == TRL_OK; level++) {
-        rect = find_squares(r, level);
-        result = draw_squares(level == 0 ? &r->from_surface : &r->from_nearest, &r->near_target,
-                              rect, side);
-        side *= level == 0 ? 1 : SQUARE;
+    trl_result result =
+        draw_squares(&r->from_surface, &surface, &r->near_target, find_squares(r, 0));
+    if (result == TRL_OK) {
+        result = draw_squares(&r->from_nearest, &pixels, &r->nearest_target, fours);
     }
+    struct squares from = {&r->nearest, fours, 1};
+    for (int level = 1; level < LEVELS && result == TRL_OK; level++) {
+        result = draw_squares(&r->from_nearest, &from, &r->near_target, find_squares(r, level));
+        from.side *= SQUARE;
+    }
+    return result;
+}
+
+// Counts the largest squares that have land. What is drawn is not looked at.
+static trl_result look_for_land(struct reflection *r)
+{
+    const struct squares largest = {&r->near, find_squares(r, LEVELS - 1), 1};
+    const struct gpu_rect rect = {0, 0, largest.rect.width, largest.rect.height};
+    gpu_condition_count(&r->has_land);
+    const trl_result result = draw_squares(&r->seen, &largest, &r->nearest_target, rect);
+    gpu_condition_counted(&r->has_land);
     return result;
 }
 
@@ -235,6 +274,24 @@ static trl_result draw_filtered(struct reflection *r, const struct sky_pixels *p
     return gpu_draw_fullscreen(program, "mirrored terrain by all facets");
 }
 
+static trl_result draw_land_mirrored(struct reflection *r, const struct sky_pixels *pixels,
+                                     const struct sky_view *view, const float sea[3])
+{
+    trl_result result = draw_land(r, view);
+    if (result == TRL_OK) {
+        result = draw_mirrored(r, pixels, view, sea);
+    }
+    return result == TRL_OK ? draw_filtered(r, pixels, view) : result;
+}
+
+// As where no pixel has water.
+static void draw_nothing(struct reflection *r, struct gpu *gpu)
+{
+    const struct gpu_pass pass = {
+        .target = &r->target, .clears_color = true, .color = {0, 0, 0, -1}};
+    gpu_pass_begin(gpu, &pass);
+}
+
 trl_result reflection_draw(struct reflection *reflection, const struct sky_pixels *pixels,
                            const struct sky_view *view, const float sea[3])
 {
@@ -242,14 +299,18 @@ trl_result reflection_draw(struct reflection *reflection, const struct sky_pixel
     if (result == TRL_OK) {
         result = fit_targets(reflection, pixels->gpu, view->target);
     }
-    if (result == TRL_OK) {
-        result = draw_nearest(reflection, view);
+    if (result != TRL_OK) {
+        return result;
     }
+    draw_nothing(reflection, pixels->gpu);
+    gpu_condition_begin(view->surface.has_water);
+    result = draw_nearest(reflection, view);
     if (result == TRL_OK) {
-        result = draw_land(reflection, view);
+        result = look_for_land(reflection);
     }
-    if (result == TRL_OK) {
-        result = draw_mirrored(reflection, pixels, view, sea);
-    }
-    return result == TRL_OK ? draw_filtered(reflection, pixels, view) : result;
+    gpu_condition_end(view->surface.has_water);
+    gpu_condition_begin(&reflection->has_land);
+    result = result == TRL_OK ? draw_land_mirrored(reflection, pixels, view, sea) : result;
+    gpu_condition_end(&reflection->has_land);
+    return result;
 }

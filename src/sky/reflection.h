@@ -11,12 +11,14 @@
 //          single, weight RGBA32F, R32F    scratch
 //     out  reflection     RGBA32F          see sky/reflection.frag; half as wide and high
 
+#include "gpu/condition.h"
 #include "gpu/program.h"
 #include "sky/pixels.h"
 
 struct reflection {
     uint32_t width, height; // of the picture; 0: nothing is made
-    struct gpu_program from_surface, from_nearest, land_of, follow, filter;
+    struct gpu_program from_surface, from_nearest, seen, land_of, follow, filter;
+    struct gpu_condition has_land; // in the picture
     // Nearest land in squares of 4 pixels; in those of 1, 4, 16 and 64; radiance of land in
     // rectangles; what is mirrored by single facets, and how much those count; by all.
     struct gpu_texture nearest, near, land, single, weight, texture;
@@ -25,7 +27,8 @@ struct reflection {
 
 void reflection_finish(struct reflection *reflection);
 
-// Draws it, and makes before what is not there yet. `sea` is the uniform u_sea of sky/sea.glsl.
+// Draws it, without work for pictures that have no water or no land, and makes before what is not
+// there yet. `sea` is the uniform u_sea of sky/sea.glsl.
 TRL_MUST_USE trl_result reflection_draw(struct reflection *reflection,
                                         const struct sky_pixels *pixels,
                                         const struct sky_view *view, const float sea[3]);

@@ -87,10 +87,7 @@ trl_result sea_water_reflect(struct sea_water *water, const struct sky_pixels *p
     }
     float surface[3];
     find_surface(water, surface);
-    gpu_condition_begin(view->surface.has_water);
-    const trl_result result = reflection_draw(&water->reflection, pixels, view, surface);
-    gpu_condition_end(view->surface.has_water);
-    return result;
+    return reflection_draw(&water->reflection, pixels, view, surface);
 }
 
 void sea_water_set(const struct sea_water *water, const struct sky_view *view,
