@@ -195,8 +195,8 @@ static trl_result draw_squares(struct gpu_program *program, const struct squares
     return gpu_draw_fullscreen(program, "nearest land");
 }
 
-// Pixels from the surface; squares of 4 from those, in a texture of their own, since `near` is read;
-// the others from these.
+// Pixels from the surface; squares of 4 from those, in a texture of their own, since `near` is
+// read; the others from these.
 static trl_result draw_nearest(struct reflection *r, const struct sky_view *view)
 {
     const struct squares surface = {.side = 1};
