@@ -88,8 +88,8 @@ struct scene {
     struct vec3 forward, up;
 };
 
-static void draw_scene(struct fixture *f, const struct scene *scene, float mean_square_slope,
-                       float texels[4 * HALF * HALF])
+static void draw_into(struct fixture *f, struct reflection *reflection, const struct scene *scene,
+                      float mean_square_slope, float texels[4 * HALF * HALF])
 {
     static float position_texels[4 * SIZE * SIZE], albedo_texels[4 * SIZE * SIZE],
         facet_texels[4 * SIZE * SIZE];
@@ -122,17 +122,23 @@ static void draw_scene(struct fixture *f, const struct scene *scene, float mean_
         .surface = {.position = &position, .albedo = &albedo, .facets = &facets, .kinds = &kinds},
         .target = &target};
     const float sea[3] = {mean_square_slope, 1.34f, 0};
-    struct reflection reflection = {0};
-    assert_int_equal(reflection_draw(&reflection, &pixels, &view, sea), TRL_OK);
-    const struct gpu_region region = gpu_texture_region(&reflection.texture, 0);
-    assert_int_equal(gpu_texture_read(&reflection.texture, &region, texels), TRL_OK);
-    reflection_finish(&reflection);
+    assert_int_equal(reflection_draw(reflection, &pixels, &view, sea), TRL_OK);
+    const struct gpu_region region = gpu_texture_region(&reflection->texture, 0);
+    assert_int_equal(gpu_texture_read(&reflection->texture, &region, texels), TRL_OK);
     gpu_target_finish(&target);
     gpu_texture_finish(&radiance);
     gpu_texture_finish(&kinds);
     gpu_texture_finish(&facets);
     gpu_texture_finish(&albedo);
     gpu_texture_finish(&position);
+}
+
+static void draw_scene(struct fixture *f, const struct scene *scene, float mean_square_slope,
+                       float texels[4 * HALF * HALF])
+{
+    struct reflection reflection = {0};
+    draw_into(f, &reflection, scene, mean_square_slope, texels);
+    reflection_finish(&reflection);
 }
 
 static void draw(struct fixture *f, float mean_square_slope, float texels[4 * HALF * HALF])
@@ -213,6 +219,39 @@ static void no_coast_is_mirrored_into_space(void **state)
     assert_true(most < 1e-3);
 }
 
+static void fill_open_sea(float *position, float *albedo)
+{
+    fill_sea_from_space(position, albedo);
+    for (uint32_t i = 0; i < SIZE * SIZE; i++) {
+        albedo[4 * i + 3] = 1;
+    }
+}
+
+static float find_most(const float texels[4 * HALF * HALF])
+{
+    float most = -1;
+    for (uint32_t i = 0; i < 4 * HALF * HALF; i++) {
+        most = fmaxf(most, texels[i]);
+    }
+    return most;
+}
+
+// Where a picture has no land nothing is drawn; what the one before had must not stay.
+static void no_land_of_the_frame_before_is_mirrored(void **state)
+{
+    static float texels[4 * HALF * HALF];
+    const struct scene wall = {fill_surface, paint_radiance, EYE_M, {0, 0, 1}, {1, 0, 0}};
+    const struct scene sea = {fill_open_sea, paint_coast, SPACE_M, {-1, 0, 0}, {0, 0, 1}};
+    struct reflection reflection = {0};
+    draw_into(*state, &reflection, &wall, 1e-8f, texels);
+    assert_true(find_most(texels) > 1);
+    draw_into(*state, &reflection, &sea, 0.02f, texels);
+    assert_true(find_most(texels) <= 0);
+    draw_into(*state, &reflection, &wall, 1e-8f, texels);
+    assert_true(find_most(texels) > 1);
+    reflection_finish(&reflection);
+}
+
 // Of a row of the half picture: how large facets of all slopes along the view are as they are seen,
 // times their reflectance; all of them, and those that mirror the wall.
 struct facets {
@@ -272,6 +311,7 @@ int main(void)
         cmocka_unit_test(calm_water_mirrors_the_wall_where_geometry_says),
         cmocka_unit_test(rough_water_draws_the_image_out),
         cmocka_unit_test(no_coast_is_mirrored_into_space),
+        cmocka_unit_test(no_land_of_the_frame_before_is_mirrored),
     };
     return cmocka_run_group_tests(tests, fixture_set_up_gpu, fixture_tear_down);
 }
