@@ -53,7 +53,7 @@ void main()
             vec3 there = place + u_sun * (base + (float(i) + 0.5) * step_m);
             depth += cloud_coarse(layer, there, cover, box).x * step_m;
             i++;
-        } while (i < PLACES && cover > LEAST_COVER);
+        } while (i < PLACES && cover > LEAST_COVER && is_ground);
         index++;
     } while (index < u_cloud_layers && is_ground);
     // Two streams without absorption: 1 / (1 + 3/4 (1 - g) t) goes through in all.
