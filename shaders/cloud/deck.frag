@@ -14,7 +14,6 @@ layout(location = 0) out vec4 out_deck;
 
 const int STAR_PLACES = 8;
 const int COLUMN_PLACES = 4;
-const float LEAST_COVER = 1.0e-4;
 
 // The place on the sphere that a texel stands for; w: its width, m.
 vec4 find_crossing()
@@ -44,7 +43,7 @@ float find_star_depth(CloudLayer layer, vec3 crossing, float width)
         vec3 there = crossing + u_sun * (base + (float(i) + 0.5) * step_m);
         depth += cloud_coarse(layer, there, cover, box).x * step_m;
         i++;
-    } while (i < STAR_PLACES && cover > LEAST_COVER);
+    } while (i < STAR_PLACES && cover > CLOUD_LEAST_COVER);
     return depth;
 }
 
@@ -68,7 +67,7 @@ vec2 find_column(CloudLayer layer, vec3 crossing, float width)
         most = max(most, part);
         depth += coarse.y * part * thick_m / float(COLUMN_PLACES);
         i++;
-    } while (i < COLUMN_PLACES && cover > LEAST_COVER);
+    } while (i < COLUMN_PLACES && cover > CLOUD_LEAST_COVER);
     float closed = 1.0 - pow(max(1.0 - most, 1.0e-6), 1.0 / layer.grain.w);
     return vec2(closed, 1.0 / (1.0 + CLOUD_DIFFUSE_DEPTH * depth / max(closed, 1.0e-3)));
 }

@@ -9,6 +9,7 @@
 #include "sky/ray.glsl"
 
 const int CLOUD_MAX_LAYERS = 4;
+const float CLOUD_LEAST_COVER = 1.0e-4; // with less there is no cloud
 
 uniform int u_cloud_layers;
 uniform vec4 u_cloud_shell[CLOUD_MAX_LAYERS]; // base, top above the sphere; widest at; cover

@@ -6,6 +6,7 @@
 // rays end about where its own does.
 // validate: SURFACE
 
+#include "shared/cloud.glsl"
 #include "sky/ray.glsl"
 
 in vec2 v_uv;
@@ -43,12 +44,6 @@ float find_end(ivec2 texel)
 #endif
 }
 
-float weigh_end(float end, float own)
-{
-    float apart = abs(end - own);
-    return 1.0 / (1.0 + 4.0e3 * apart * apart * apart);
-}
-
 // Between the texels of the past, at a place in them.
 vec4 look_back(vec2 at)
 {
@@ -82,7 +77,7 @@ void main()
         ivec2 corner = ivec2(n & 1, n >> 1);
         ivec2 at = clamp(first + corner, ivec2(0), last);
         vec2 near = mix(1.0 - part, part, vec2(corner));
-        float weight = (near.x * near.y + 1.0e-4) * weigh_end(find_end(2 * at + offset), own);
+        float weight = (near.x * near.y + 1.0e-4) * cloud_alike(find_end(2 * at + offset), own);
         between += texelFetch(u_fresh, at, 0) * weight;
         distance_log += texelFetch(u_distance, at, 0).x * weight;
         weights += weight;
@@ -92,7 +87,7 @@ void main()
     vec4 most = between;
     for (int n = 0; n < 9; n++) {
         ivec2 at = clamp(nearest + ivec2(n % 3, n / 3) - 1, ivec2(0), last);
-        bool is_alike = weigh_end(find_end(2 * at + offset), own) > 0.5;
+        bool is_alike = cloud_alike(find_end(2 * at + offset), own) > 0.5;
         vec4 fresh = is_alike ? texelFetch(u_fresh, at, 0) : between;
         least = min(least, fresh);
         most = max(most, fresh);

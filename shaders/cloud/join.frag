@@ -9,6 +9,7 @@
 // validate: SURFACE; FILTER
 // validate: SHARPEN
 
+#include "shared/cloud.glsl"
 #include "sky/ray.glsl"
 
 in vec2 v_uv;
@@ -37,13 +38,6 @@ layout(location = 1) out float out_end;
 
 const float SKY_M = 1.0e8;
 
-// Alike within some per cent counts as one surface.
-float weigh_end(float end, float own)
-{
-    float apart = abs(end - own);
-    return 1.0 / (1.0 + 4.0e3 * apart * apart * apart);
-}
-
 #ifdef SHARPEN
 const float ALIKE = 0.9;   // of which all five are at least, to be sharpened
 const float SHARPER = 1.0; // of what one has over those around it, how much is added
@@ -68,7 +62,7 @@ void main()
         least = min(least, there);
         most = max(most, there);
         around += 0.25 * there;
-        alike = min(alike, weigh_end(texelFetch(u_ends, at, 0).x, own));
+        alike = min(alike, cloud_alike(texelFetch(u_ends, at, 0).x, own));
     }
     vec4 sharpened = clamp(joined + SHARPER * (joined - around), least, most);
     out_clouds = alike < ALIKE ? joined : sharpened;
@@ -105,7 +99,7 @@ vec4 join_four(sampler2D clouds, ivec2 first, vec2 part, float own, bool is_marc
         ivec2 corner = ivec2(n & 1, n >> 1);
         ivec2 at = clamp(first + corner, ivec2(0), last);
         vec2 near = mix(1.0 - part, part, vec2(corner));
-        float weight = (near.x * near.y + 1.0e-4) * weigh_end(end_at(at, is_marched), own);
+        float weight = (near.x * near.y + 1.0e-4) * cloud_alike(end_at(at, is_marched), own);
         sum += texelFetch(clouds, at, 0) * weight;
         weights += weight;
     }

@@ -52,7 +52,6 @@ const float LONG_DEPTH = 0.45;    // at most, of a usual step
 const float SHORT = 0.3;          // of a usual step, the shortest
 const float STEEPEST = 10.0;      // texels in which noise hardly changes by more than 1
 const float LEAST_DEPTH = 1.0e-4; // of what counts as cloud
-const float LEAST_COVER = 1.0e-4;
 
 struct Part {
     float from, to; // m
@@ -170,7 +169,7 @@ Span first_span(CloudLayer layer, Ray ray, float to, float weather, CloudBox box
     span.line.way.noise = vec3(0.0);
     span.line.way.finer = vec3(0.0);
     span.line.way.height = 0.0;
-    if (weather > LEAST_COVER) {
+    if (weather > CLOUD_LEAST_COVER) {
         span.last = cloud_gathered(layer, place, weather, box);
     }
     return span;
@@ -278,7 +277,7 @@ void main()
             float rise = layer.form.w * lighting.view_mu / (layer.shell.y - layer.shell.x);
             // Where steps are longer than what is in them varies, they would only make noise.
             float offset = 0.5 + (four.x - 0.5) * min(4.0 * texel / usual, 1.0);
-            float s = weather > LEAST_COVER ? near : far;
+            float s = weather > CLOUD_LEAST_COVER ? near : far;
             float stride = usual;
             bool is_inside = false;
             bool is_near = true;

@@ -18,7 +18,6 @@ uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, o
 layout(location = 0) out vec2 out_left;
 
 const int PLACES = 10;
-const float LEAST_COVER = 1.0e-4;
 const float SKY_M = 1.0e9;
 
 void main()
@@ -53,7 +52,7 @@ void main()
             vec3 there = place + u_sun * (base + (float(i) + 0.5) * step_m);
             depth += cloud_coarse(layer, there, cover, box).x * step_m;
             i++;
-        } while (i < PLACES && cover > LEAST_COVER && is_ground);
+        } while (i < PLACES && cover > CLOUD_LEAST_COVER && is_ground);
         index++;
     } while (index < u_cloud_layers && is_ground);
     // Two streams without absorption: 1 / (1 + 3/4 (1 - g) t) goes through in all.

@@ -259,6 +259,14 @@ SHARED_FN Number cloud_horizon(Number view_mu, Number whole, Number depth)
     return ahead / (1.0 + 1.4 * whole) + 0.286 / (1.0 + 0.202 * depth);
 }
 
+// How surely two rays end at one surface, by the logarithms of their distances: they do within some
+// per cent.
+SHARED_FN Number cloud_alike(Number end, Number own)
+{
+    Number apart = shared_abs(end - own);
+    return 1.0 / (1.0 + 4.0e3 * apart * apart * apart);
+}
+
 // A part of a step that is as dense all along, integrated: (1 - exp(-t)) / t, without cancellation.
 SHARED_FN Number cloud_mean_transmittance(Number depth)
 {

@@ -38,8 +38,7 @@ float cloud_shade(float distance_m)
         ivec2 offset = ivec2(n & 1, n >> 1);
         vec2 shade = texelFetch(u_cloud_shade, min(first + offset, last), 0).xy;
         vec2 near = mix(1.0 - part, part, vec2(offset));
-        float apart = abs(shade.y - own);
-        float weight = (near.x * near.y + 1.0e-4) / (1.0 + 4.0e3 * apart * apart * apart);
+        float weight = (near.x * near.y + 1.0e-4) * cloud_alike(shade.y, own);
         sum += shade.x * weight;
         weights += weight;
     }
