@@ -85,7 +85,7 @@ struct Cover {
     float height, hidden, deviation, log2_texel;
 };
 
-Cover cover;
+Cover cover = Cover(0.0, 1.0, 0.0, 0.0);
 
 // The part of a mask's share that lies here. What is below finer texels than the data's is not
 // known.

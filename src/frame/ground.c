@@ -166,6 +166,9 @@ static trl_result make_waves(struct ground *ground, const struct trl_scene *scen
         ground->facets.waves.shores = &ground->surface;
         result = sea_mesh_init(&ground->surface, &ground->facets.waves, &ground->sea_mesh);
     }
+    if (result == TRL_OK) {
+        result = terrain_open_sea_init(&ground->surface, &ground->open_sea);
+    }
     ground->has_waves = result == TRL_OK;
     return result;
 }
@@ -244,6 +247,7 @@ static void finish_buffers(struct ground *ground)
 void ground_finish(struct ground *ground)
 {
     finish_buffers(ground);
+    terrain_open_sea_finish(&ground->open_sea);
     sea_mesh_finish(&ground->sea_mesh);
     facets_finish(&ground->facets);
     if (ground->gpu) {
@@ -335,6 +339,9 @@ trl_result ground_resize(struct ground *ground, uint32_t width, uint32_t height)
     if (result == TRL_OK && ground->has_waves) {
         result = sea_mesh_resize(&ground->sea_mesh, &ground->depth);
     }
+    if (result == TRL_OK && ground->has_waves) {
+        result = terrain_open_sea_resize(&ground->open_sea, &ground->depth);
+    }
     if (result != TRL_OK) {
         finish_buffers(ground);
     }
@@ -373,6 +380,16 @@ static trl_result draw_sea_mesh(struct ground *ground, const struct camera *came
 // The depth of the sky in kinds, over which no pass draws.
 static const float HIDDEN_DEPTH = 0;
 
+static trl_result set_open_sea(struct ground *ground, struct terrain_compose_inputs *inputs)
+{
+    const struct gpu_texture *open = NULL;
+    const trl_result result = terrain_open_sea_find(&ground->open_sea, inputs, &open);
+    inputs->has_open = open;
+    return result == TRL_OK
+               ? gpu_hide_draw(&ground->hide, open, TERRAIN_OPEN_DEPTH, &ground->kinds_target)
+               : result;
+}
+
 static trl_result draw_surface(struct ground *ground, const struct camera *camera,
                                const struct ground_extras *extras, const struct gpu_texture *hidden)
 {
@@ -382,6 +399,9 @@ static trl_result draw_surface(struct ground *ground, const struct camera *camer
                                             .region_m = ground->region_m};
     memcpy(inputs.sea_albedo, extras->sea_albedo, sizeof inputs.sea_albedo);
     trl_result result = terrain_kinds_draw(&ground->kinds, inputs.position, &ground->kinds_target);
+    if (result == TRL_OK && ground->has_waves) {
+        result = set_open_sea(ground, &inputs);
+    }
     if (result == TRL_OK) {
         result = gpu_hide_draw(&ground->hide, hidden, HIDDEN_DEPTH, &ground->kinds_target);
     }

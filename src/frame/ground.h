@@ -27,6 +27,7 @@
 #include "terrain/compose.h"
 #include "terrain/kinds.h"
 #include "terrain/mesher.h"
+#include "terrain/open_sea.h"
 #include "terrain/sky_view.h"
 
 struct ground {
@@ -44,6 +45,7 @@ struct ground {
     struct terrain_shadow shadow;
     struct terrain_kinds kinds;
     struct gpu_hide hide;
+    struct terrain_open_sea open_sea; // where there are waves
     struct terrain_compose compose;
     struct waves waves;
     struct waves_view *stand; // owned; room for ground_wave_m

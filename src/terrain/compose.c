@@ -5,6 +5,7 @@
 #include "gpu/pass.h"
 #include "shared/sea.glsl"
 #include "shared/shore.glsl"
+#include "terrain/kinds.h"
 
 #include <math.h>
 
@@ -39,7 +40,7 @@ static trl_result make_program(struct terrain_compose *compose, bool has_noise, 
     if (!has_noise && has_mean_shores(surface)) {
         defines.list[defines.count++] = "HAS_MEAN_SHORES";
     }
-    const struct gpu_program_desc desc = {.vertex = "lib/fullscreen.vert",
+    const struct gpu_program_desc desc = {.vertex = "lib/layer.vert",
                                           .fragment = "terrain/surface.frag",
                                           .defines = defines.list,
                                           .define_count = defines.count};
@@ -72,6 +73,11 @@ void terrain_compose_finish(struct terrain_compose *compose)
     *compose = (struct terrain_compose){0};
 }
 
+static double find_pixel_rad(const struct terrain_compose_inputs *in)
+{
+    return 2 * in->camera->tan_half_fov_y / in->position->height;
+}
+
 static struct surface_selection select_layers(const struct surface *surface,
                                               const struct terrain_compose_inputs *in)
 {
@@ -82,7 +88,7 @@ static struct surface_selection select_layers(const struct surface *surface,
     eye.up = vec3_scale(in->camera->position_m, 1 / distance_m);
     eye.solid_m = fmin(p->solid_m, distance_m);
     eye.horizon_rad = acos(eye.solid_m / distance_m);
-    eye.least_rad = LEAST_PIXELS * 2 * in->camera->tan_half_fov_y / in->position->height;
+    eye.least_rad = LEAST_PIXELS * find_pixel_rad(in);
     return surface_select(surface, &eye);
 }
 
@@ -115,31 +121,39 @@ static void bind_rock(const struct surface_rock *rock, struct gpu_program *progr
     gpu_program_set_vec4(program, "u_rock_slopes", slopes);
 }
 
-trl_result terrain_compose_draw(struct terrain_compose *compose,
-                                const struct terrain_compose_inputs *in,
-                                const struct gpu_target *target)
+struct terrain_compose_scope terrain_compose_find_scope(const struct surface *surface,
+                                                        const struct terrain_compose_inputs *in)
 {
-    const struct surface *surface = compose->surface;
-    const double pixel_rad = 2 * in->camera->tan_half_fov_y / in->position->height;
     const double nearest_m =
         vec3_length(in->camera->position_m) - surface->radius_m - surface->max_altitude_m;
-    const bool has_noise =
-        surface->is_invented || noise_is_seen(&surface->noise, nearest_m * pixel_rad);
-    const struct surface_selection selection = select_layers(surface, in);
-    tell_left_out(compose, &selection);
-    struct gpu_program *program =
-        &compose->programs[has_noise][selection.counts[SURFACE_ELEVATION]];
+    return (struct terrain_compose_scope){
+        .selection = select_layers(surface, in),
+        .has_noise =
+            surface->is_invented || noise_is_seen(&surface->noise, nearest_m * find_pixel_rad(in))};
+}
+
+void terrain_compose_bind_scope(const struct surface *surface,
+                                const struct terrain_compose_inputs *in,
+                                const struct terrain_compose_scope *scope,
+                                struct gpu_program *program)
+{
     const struct anchor anchor = anchor_below(in->camera->position_m);
     float local_from_planet[9];
     anchor_local_from_planet(&anchor, local_from_planet);
-    const float view[4] = {(float)vec3_length(in->camera->position_m), (float)pixel_rad, 0, 0};
-    surface_bind(surface, &selection, &anchor, program);
-    terrain_shadow_bind(in->shadow, in->camera, program);
-    biomes_bind(&surface->biomes, program);
-    bind_rock(&surface->rock, program);
+    const float view[4] = {(float)vec3_length(in->camera->position_m), (float)find_pixel_rad(in)};
+    surface_bind(surface, &scope->selection, &anchor, program);
     gpu_program_set_texture(program, "u_position", in->position);
     gpu_program_set_mat3(program, "u_local_from_planet", local_from_planet);
     gpu_program_set_vec4(program, "u_view", view);
+}
+
+static void bind(const struct surface *surface, const struct terrain_compose_inputs *in,
+                 const struct terrain_compose_scope *scope, struct gpu_program *program)
+{
+    terrain_compose_bind_scope(surface, in, scope, program);
+    terrain_shadow_bind(in->shadow, in->camera, program);
+    biomes_bind(&surface->biomes, program);
+    bind_rock(&surface->rock, program);
     gpu_program_set_vec3(program, "u_default_albedo", surface->default_albedo);
     if (surface->depth.is_told) {
         const double depth_m = surface->depth.everywhere_m;
@@ -148,8 +162,31 @@ trl_result terrain_compose_draw(struct terrain_compose *compose,
         gpu_program_set_vec3(program, "u_sea_albedo", in->sea_albedo);
     }
     gpu_program_set_float(program, "u_region", (float)log2(fmax(in->region_m, 1e-3)));
-    const struct gpu_pass pass = {
+}
+
+trl_result terrain_compose_draw(struct terrain_compose *compose,
+                                const struct terrain_compose_inputs *in,
+                                const struct gpu_target *target)
+{
+    const struct terrain_compose_scope scope = terrain_compose_find_scope(compose->surface, in);
+    tell_left_out(compose, &scope.selection);
+    struct gpu_program *program =
+        &compose->programs[scope.has_noise][scope.selection.counts[SURFACE_ELEVATION]];
+    bind(compose->surface, in, &scope, program);
+    gpu_program_set_float(program, "u_depth", TERRAIN_GROUND_DEPTH);
+    struct gpu_pass pass = {
         .target = target, .state = {.depth = GPU_DEPTH_FARTHER}, .clears_color = true};
     gpu_pass_begin(compose->gpu, &pass);
-    return gpu_draw_fullscreen(program, "terrain surface");
+    trl_result result = gpu_draw_fullscreen(program, "terrain surface");
+    if (result == TRL_OK && in->has_open) {
+        // Level, with neither heights nor relief.
+        program = &compose->programs[false][0];
+        bind(compose->surface, in, &scope, program);
+        gpu_program_set_float(program, "u_depth", TERRAIN_OPEN_DEPTH);
+        pass.state.depth = GPU_DEPTH_EQUAL;
+        pass.clears_color = false;
+        gpu_pass_begin(compose->gpu, &pass);
+        result = gpu_draw_fullscreen(program, "open sea");
+    }
+    return result;
 }

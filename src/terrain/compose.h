@@ -27,8 +27,24 @@ struct terrain_compose_inputs {
     const struct gpu_texture *position;  // drawn by a mesher for that camera
     const struct terrain_shadow *shadow; // updated for it
     double region_m;                     // over which color 3 is averaged
+    bool has_open;                       // the target's depth tells open sea from other ground
     float sea_albedo[3];                 // of open water in it, where the surface tells its depth
 };
+
+// What of the surface a picture asks for.
+struct terrain_compose_scope {
+    struct surface_selection selection;
+    bool has_noise; // made-up relief is seen
+};
+struct terrain_compose_scope
+terrain_compose_find_scope(const struct surface *surface,
+                           const struct terrain_compose_inputs *inputs);
+
+// Hands a program that, and where its pixels are.
+void terrain_compose_bind_scope(const struct surface *surface,
+                                const struct terrain_compose_inputs *inputs,
+                                const struct terrain_compose_scope *scope,
+                                struct gpu_program *program);
 
 // Draws all of `target`, of the position's size:
 // color 0, RGBA8: square root of the linear albedo, and the part of it that is water;

@@ -19,8 +19,12 @@ struct terrain_kinds {
 TRL_MUST_USE trl_result terrain_kinds_init(struct gpu *gpu, struct terrain_kinds *out);
 void terrain_kinds_finish(struct terrain_kinds *kinds);
 
-// Overwrites the depth of a target that has nothing else: passes of lib/fullscreen.vert with
-// GPU_DEPTH_FARTHER then draw where there is ground. `position` is that of frame/ground.h.
+// Overwrites the depth of a target that has nothing else: passes of lib/fullscreen.vert, or of
+// lib/layer.vert at TERRAIN_GROUND_DEPTH, with GPU_DEPTH_FARTHER then draw where there is ground.
+// `position` is that of frame/ground.h. Who knows of open sea (open_sea.h) may set it to
+// TERRAIN_OPEN_DEPTH: until the water is added it is not ground then.
+#define TERRAIN_GROUND_DEPTH 0.5f
+#define TERRAIN_OPEN_DEPTH 0.25f
 TRL_MUST_USE trl_result terrain_kinds_draw(struct terrain_kinds *kinds,
                                            const struct gpu_texture *position,
                                            const struct gpu_target *target);
