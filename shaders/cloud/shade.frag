@@ -3,8 +3,11 @@
 // What clouds leave of the star's light on the ground of every second pixel each way: 1 where there
 // is none. y: logarithm of its distance, for who looks between pixels. Of what
 // they take, droplets send most on downward; it counts here too, as if it still came from the star.
-// Ground that clouds hide from the eye counts as sky.
+// Ground that clouds hide from the eye counts as sky. With SORT: which is ground, as depth, so that
+// the rest is not entered.
 // validate: SURFACE
+// validate: SURFACE; SORT
+// validate: SORT
 
 #include "cloud/weather.glsl"
 
@@ -15,10 +18,12 @@ uniform sampler2D u_hidden; // of squares of four of them
 uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
 #endif
 
+#ifndef SORT
 layout(location = 0) out vec2 out_left;
+#endif
 
-const int PLACES = 10;
-const float SKY_M = 1.0e9;
+const int PLACES = 10; // at most: no nearer together than pixels are wide
+const int LEAST_PLACES = 3;
 
 void main()
 {
@@ -32,7 +37,10 @@ void main()
     bool is_ground = ray.meets_ground;
     vec3 place = ray.direction * ray.ground_m;
 #endif
+#ifdef SORT
     is_ground = is_ground && texelFetch(u_hidden, ivec2(pixel) / 4, 0).x < 1.0;
+    gl_FragDepth = is_ground ? 1.0 : 0.0;
+#else
     vec3 up = normalize(u_eye_up * u_eye.x + place);
     float sun_mu = max(dot(up, u_sun), 0.03);
     float altitude = cloud_altitude(place);
@@ -43,7 +51,8 @@ void main()
         CloudLayer layer = cloud_layer(index);
         float base = max(layer.shell.x - altitude, 0.0) / sun_mu;
         float top = max(layer.shell.y - altitude, 0.0) / sun_mu;
-        float step_m = (top - base) / float(PLACES);
+        int places = clamp(int(ceil((top - base) / max(width, 1.0))), LEAST_PLACES, PLACES);
+        float step_m = (top - base) / float(places);
         CloudBox box = cloud_whole_box(layer, cloud_level(layer, max(width, 0.5 * step_m)), 0.5);
         vec3 middle = place + u_sun * (0.5 * (base + top));
         float cover = cloud_gathered(layer, middle, cloud_cover(layer, middle, width), box);
@@ -52,11 +61,10 @@ void main()
             vec3 there = place + u_sun * (base + (float(i) + 0.5) * step_m);
             depth += cloud_coarse(layer, there, cover, box).x * step_m;
             i++;
-        } while (i < PLACES && cover > CLOUD_LEAST_COVER && is_ground);
+        } while (i < places && cover > CLOUD_LEAST_COVER);
         index++;
-    } while (index < u_cloud_layers && is_ground);
+    } while (index < u_cloud_layers);
     // Two streams without absorption: 1 / (1 + 3/4 (1 - g) t) goes through in all.
-    depth = is_ground ? depth : 0.0;
-    float distance_m = is_ground ? max(length(place), 1.0e-3) : SKY_M;
-    out_left = vec2(1.0 / (1.0 + CLOUD_DIFFUSE_DEPTH * depth), log(distance_m));
+    out_left = vec2(1.0 / (1.0 + CLOUD_DIFFUSE_DEPTH * depth), log(max(length(place), 1.0e-3)));
+#endif
 }

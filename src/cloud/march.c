@@ -57,6 +57,7 @@ trl_result cloud_march_init(struct gpu *gpu, const struct cloud_field *field,
 {
     *out = (struct cloud_march){.gpu = gpu, .field = field};
     cloud_deck_init(gpu, &out->deck);
+    cloud_shade_init(gpu, &out->shade);
     trl_result result = upload_noise(out);
     if (result == TRL_OK) {
         result = upload_map(out);
@@ -74,7 +75,6 @@ static void finish_programs(struct cloud_march *m)
     gpu_program_finish(&m->sharpen);
     gpu_program_finish(&m->join);
     gpu_program_finish(&m->find_hidden);
-    gpu_program_finish(&m->shade);
     gpu_program_finish(&m->history.gather);
     m->is_made = false;
 }
@@ -89,12 +89,10 @@ static void finish_targets(struct cloud_march *m)
     gpu_target_finish(&m->joined_target);
     gpu_target_finish(&m->sharpened_target);
     gpu_target_finish(&m->hidden_target);
-    gpu_target_finish(&m->shades_target);
     gpu_texture_finish(&m->joined);
     gpu_texture_finish(&m->ends);
     gpu_texture_finish(&m->sharpened);
     gpu_texture_finish(&m->hidden);
-    gpu_texture_finish(&m->shades);
     m->width = m->height = 0;
 }
 
@@ -103,6 +101,7 @@ void cloud_march_finish(struct cloud_march *march)
     finish_targets(march);
     finish_programs(march);
     cloud_deck_finish(&march->deck);
+    cloud_shade_finish(&march->shade);
     gpu_texture_finish(&march->noise);
     gpu_texture_finish(&march->map);
     *march = (struct cloud_march){0};
@@ -152,7 +151,7 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
         result = make_program(m->gpu, "cloud/join.frag", surface, &m->join);
     }
     if (result == TRL_OK) {
-        result = make_program(m->gpu, "cloud/shade.frag", surface, &m->shade);
+        result = cloud_shade_make_programs(&m->shade, is_bare);
     }
     if (result == TRL_OK) {
         result = make_program(m->gpu, "cloud/hidden.frag", nothing, &m->find_hidden);
@@ -202,13 +201,11 @@ static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *pi
     }
     finish_targets(m);
     struct gpu_texture_desc desc = gpu_texture_desc_default();
-    desc.label = "shade of clouds";
     desc.filter = GPU_FILTER_NEAREST;
-    desc.format = GPU_FORMAT_RG32F;
+    desc.format = GPU_FORMAT_RGBA32F;
     desc.width = (picture->width + 1) / 2;
     desc.height = (picture->height + 1) / 2;
-    trl_result result = make_target(m, &desc, &m->shades, &m->shades_target);
-    desc.format = GPU_FORMAT_RGBA32F;
+    trl_result result = cloud_shade_resize(&m->shade, picture->width, picture->height);
     for (int i = 0; i < 2 && result == TRL_OK; i++) {
         desc.label = "clouds";
         result = make_target(m, &desc, &m->clouds[i], &m->clouds_target[i]);
@@ -264,13 +261,14 @@ trl_result cloud_march_deck(struct cloud_march *march, const struct cloud_view *
 
 trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view)
 {
-    const struct gpu_pass pass = {.target = &march->shades_target};
-    view->air->bind(view->air->self, false, &march->shade);
-    cloud_march_set_field(march, view->camera, &march->shade);
-    set_view(view, &march->shade);
-    gpu_program_set_texture(&march->shade, "u_hidden", &march->hidden);
-    gpu_pass_begin(march->gpu, &pass);
-    return gpu_draw_fullscreen(&march->shade, "clouds");
+    struct cloud_shade *shade = &march->shade;
+    set_view(view, &shade->sort);
+    view->air->bind(view->air->self, false, &shade->sort);
+    gpu_program_set_texture(&shade->sort, "u_hidden", &march->hidden);
+    set_view(view, &shade->shade);
+    view->air->bind(view->air->self, false, &shade->shade);
+    cloud_march_set_field(march, view->camera, &shade->shade);
+    return cloud_shade_draw(shade);
 }
 
 // From pixels of 16 texels of the finest noise on less and less is spread, from 64 on nothing.

@@ -12,14 +12,13 @@
 //          sharpened  RGBA32F  the same with edges as they were; scratch
 //          hidden     R8       of squares of pixels (gpu/hide.h): what clouds hide of
 //                              it, see cloud/hidden.frag
-//          shade      RG32F    of every second pixel: what clouds leave of the star's light on its
-//                              ground, and the logarithm of its distance
 //          radiance            with clouds
 
 #include "base/camera.h"
 #include "cloud/deck.h"
 #include "cloud/field.h"
 #include "cloud/history.h"
+#include "cloud/shade.h"
 #include "gpu/hide.h"
 #include "gpu/pass.h"
 
@@ -40,15 +39,15 @@ struct cloud_march {
     bool is_made; // with the programs for:
     bool is_bare, has_march;
     int peaked_count;
-    struct gpu_program march, filter, sharpen, join, find_hidden, shade;
+    struct gpu_program march, filter, sharpen, join, find_hidden;
     uint32_t width, height;       // of the last picture
     struct gpu_texture clouds[2]; // this frame's and the one before
-    struct gpu_texture joined, ends, sharpened, hidden, shades;
+    struct gpu_texture joined, ends, sharpened, hidden;
     struct gpu_target clouds_target[2], joined_target, sharpened_target, hidden_target;
-    struct gpu_target shades_target;
     int now; // which of both is this frame's
     struct cloud_history history;
     struct cloud_deck deck;
+    struct cloud_shade shade;
 };
 
 // Uploads noise and map. The field must outlive it. TRL_ERROR_GPU, TRL_ERROR_MEMORY,
@@ -74,7 +73,7 @@ struct cloud_view {
 TRL_MUST_USE trl_result cloud_march_deck(struct cloud_march *march, const struct cloud_view *view);
 // `clouds` and `hidden`;
 TRL_MUST_USE trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *view);
-// `shades`, before ground is lit;
+// what `shade` has, before ground is lit;
 TRL_MUST_USE trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view);
 // and after all that is behind, clouds into the picture.
 TRL_MUST_USE trl_result cloud_march_join(struct cloud_march *march, const struct cloud_view *view);

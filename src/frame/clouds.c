@@ -63,7 +63,7 @@ void clouds_announce(struct clouds *clouds, const struct sky *sky, double time_s
     clouds->time_s = time_s;
     if (clouds_are_drawn(clouds, sky)) {
         cloud_field_set_time(clouds->field, time_s);
-        view->cloud_shade = &clouds->march.shades;
+        view->cloud_shade = &clouds->march.shade.left;
         view->cloud_deck = &clouds->march.deck.map;
         view->cloud_deck_place = clouds->march.deck.place;
         view->cloud_top_m = cloud_field_highest_m(clouds->field);
