@@ -298,48 +298,57 @@ float cloud_from_inside(CloudLayer layer, CloudNoise noise, float here, float fi
 }
 
 // Optical depth from a place toward the star, by six places at growing distances (Michelic 2019,
-// Section 5), each of which stands for the clouds as far as to the next.
+// Section 5), each of which stands for the clouds as far as to the next; and, where the layer goes
+// on, as under low stars, by as many at equal ones.
 const int CLOUD_SUN_PLACES = 6;
 const int CLOUD_SUN_FINE_PLACES = 3;
-const float CLOUD_SUN_REACH = 0.3125; // at most, in tiles
-const float CLOUD_SUN_BOX = 0.25;     // side of what is looked at, of the way it stands for
-const float CLOUD_SUN_LOWER = 0.15;   // with what whole levels let as much through as those between
+const float CLOUD_SUN_REACH = 0.3125;  // at most, in tiles
+const float CLOUD_SUN_FARTHER = 0.375; // from there
+const float CLOUD_SUN_BOX = 0.25;      // side of what is looked at, of the way it stands for
+const float CLOUD_SUN_LOWER = 0.15; // with what whole levels let as much through as those between
+const float CLOUD_SUN_LEAST_STEP = 1.0; // m, of the farther places
 
-// How far toward the star there are looks: to the layer's top, m.
-float cloud_sun_reach(CloudLayer layer, float sun_mu, float height)
+// How far toward the star there are looks, m: those of the growing distances, and all.
+vec2 cloud_sun_reach(CloudLayer layer, float sun_mu, float height)
 {
     float thick = layer.shell.y - layer.shell.x;
-    return min((1.0 - height) * thick / max(sun_mu, 0.02), CLOUD_SUN_REACH / layer.grain.x);
+    float whole = (1.0 - height) * thick / max(sun_mu, 0.02);
+    float near = min(whole, CLOUD_SUN_REACH / layer.grain.x);
+    return vec2(near, min(whole, near + CLOUD_SUN_FARTHER / layer.grain.x));
 }
 
-// `at` is where the noise is for the place, `width` that of a pixel there, `rest` as in
-// cloud_whole_box.
-float cloud_sun_depth(CloudLayer layer, vec3 place, CloudPlaces at, float cover, float sun_mu,
-                      float width, float rest)
+// x: of the growing distances; y: beyond. `at` is where the noise is for the place, `width` that of
+// a pixel there, `rest` as in cloud_whole_box.
+vec2 cloud_sun_depth(CloudLayer layer, vec3 place, CloudPlaces at, float cover, float sun_mu,
+                     float width, float rest)
 {
-    float reach = cloud_sun_reach(layer, sun_mu, at.height);
-    CloudLine line = cloud_line(layer, at, place + u_sun * reach);
+    vec2 reach = cloud_sun_reach(layer, sun_mu, at.height);
+    float farther = (reach.y - reach.x) / float(CLOUD_SUN_PLACES);
+    int places = farther > CLOUD_SUN_LEAST_STEP ? 2 * CLOUD_SUN_PLACES : CLOUD_SUN_PLACES;
+    CloudLine line = cloud_line(layer, at, place + u_sun * reach.y);
     float first = cloud_threshold(cover, cloud_height_signal(at.height, layer.shell.z));
-    float sum = 0.0;
+    vec2 sum = vec2(0.0);
     float from = 0.0;
     int i = 1;
     do {
+        bool is_near = i <= CLOUD_SUN_PLACES;
         float part = float(i) / float(CLOUD_SUN_PLACES);
-        float to = reach * part * part;
+        float to = is_near ? reach.x * part * part : from + farther;
         float middle = 0.5 * (from + to);
         float level = cloud_level(layer, max(CLOUD_SUN_BOX * (to - from), width));
         CloudBox box = cloud_whole_box(layer, level, rest - CLOUD_SUN_LOWER);
-        CloudPlaces there = cloud_on_line(line, middle / max(reach, 1.0e-3));
+        CloudPlaces there = cloud_on_line(line, middle / max(reach.y, 1.0e-3));
         CloudNoise noise = cloud_coarse_noise(layer, there, box);
         if (i <= CLOUD_SUN_FINE_PLACES) {
             noise = cloud_finer_noise(layer, there, noise.value, box);
         }
         float kept = exp(-middle / box.way);
         float here = cloud_threshold(cover, cloud_height_signal(there.height, layer.shell.z));
-        sum += cloud_from_inside(layer, noise, here, first, kept, box) * (to - from);
+        float depth = cloud_from_inside(layer, noise, here, first, kept, box) * (to - from);
+        sum += is_near ? vec2(depth, 0.0) : vec2(0.0, depth);
         from = to;
         i++;
-    } while (i <= CLOUD_SUN_PLACES);
+    } while (i <= places);
     return sum;
 }
 

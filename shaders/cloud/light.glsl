@@ -71,7 +71,7 @@ struct Lighting {
 // Optical depth toward the star beyond what cloud_sun_depth looks at: the map's.
 float far_depth(CloudLayer layer, vec3 place, float sun_mu, float height)
 {
-    vec3 there = place + u_sun * cloud_sun_reach(layer, sun_mu, height);
+    vec3 there = place + u_sun * cloud_sun_reach(layer, sun_mu, height).y;
     float altitude = cloud_altitude(there);
     vec3 crossing = there + u_sun * deck_way(there, altitude, u_deck_map.x);
     vec4 texel = textureLod(u_deck, deck_uv(crossing), 0.0);
@@ -85,9 +85,10 @@ float far_depth(CloudLayer layer, vec3 place, float sun_mu, float height)
 Shares shares_at(CloudLayer layer, vec3 place, CloudPlaces at, float cover, Lighting lighting)
 {
     at.height = clamp(cloud_height(layer, place), 0.0, 1.0);
-    float depth =
+    vec2 depths =
         cloud_sun_depth(layer, place, at, cover, lighting.sun_mu, lighting.width, lighting.rest);
-    float far = far_depth(layer, place, lighting.sun_mu, at.height);
+    float depth = depths.x;
+    float far = depths.y + far_depth(layer, place, lighting.sun_mu, at.height);
     // How dense it is above and below, each by one look.
     float thick_m = layer.shell.y - layer.shell.x;
     float side_m = cloud_side(thick_m, 1.0 / layer.grain.x);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Extinction of the first layer at a place, with its height, and the optical depth toward the star.
+// Extinction of the first layer at a place, with its height, and the optical depths toward the
+// star: nearby and farther.
 #include "cloud/weather.glsl"
 
 uniform vec4 u_place; // relative to the eye, m; level
@@ -16,6 +17,7 @@ void main()
     cover = cloud_gathered(layer, u_place.xyz, cover, box);
     CloudPlaces at = cloud_places(layer, u_place.xyz);
     float extinction = cloud_look(layer, at, cover, cover, 0.0, box).extinction;
-    float depth = cloud_sun_depth(layer, u_place.xyz, at, cover, 1.0, u_width.x, u_width.y);
-    out_point = vec4(extinction, at.height, depth, cover);
+    float sun_mu = dot(u_eye_up, u_sun);
+    vec2 depths = cloud_sun_depth(layer, u_place.xyz, at, cover, sun_mu, u_width.x, u_width.y);
+    out_point = vec4(extinction, at.height, depths);
 }
