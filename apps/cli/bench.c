@@ -35,7 +35,7 @@ static const struct bench benches[] = {
      bench_run_terrain_error, NULL},
     {"stream", "rasters larger than their memory: first complete frame, tiles, a flight",
      bench_run_stream, NULL},
-    {"clouds", "clouds over a bare sphere: by cover, from the ground and from space, two sizes",
+    {"clouds", "clouds over a bare sphere: by cover, view, size and samples toward the sun; memory",
      bench_run_clouds, NULL},
     {"cloud-frame", "terrain, sea, air and clouds: complete frames of each view, and in flight",
      bench_run_cloud_frame, NULL},

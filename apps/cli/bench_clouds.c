@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// What clouds take of a frame: by cover, view and size, over a bare sphere; and in a flight, where
-// they come together over frames.
+// What clouds take of a frame: by cover, view, size and looks toward the star, over a bare sphere;
+// and in a flight, where they come together over frames.
 #include "bare_scene.h"
 #include "bench.h"
 
@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double pi = 3.14159265358979323846;
 static const double turn_rad = 0.005; // of a flight, from frame to frame
 
 enum { DEFAULT_RUNS = 3, TIMINGS_MAX = 32, COVERS = 3, SIZES = 2, VIEWS = 2 };
@@ -16,6 +17,14 @@ enum { DEFAULT_RUNS = 3, TIMINGS_MAX = 32, COVERS = 3, SIZES = 2, VIEWS = 2 };
 static const double covers[COVERS] = {0.2, 0.5, 0.9};
 static const struct number_size sizes[SIZES] = {{640, 360}, {1280, 720}};
 static const char *const views[VIEWS] = {"ground", "full-disc"};
+
+// Of each place that is lit, under stars of these elevations: where ways to the top of the layer
+// are long, there are more.
+static const struct {
+    double elevation_deg;
+    int samples;
+} suns[] = {{60, 6}, {5, 12}};
+enum { SUNS = sizeof suns / sizeof *suns, SUN_COVER = 1 };
 
 static trl_result add_passes(const struct bench_job *job, const trl_renderer *renderer,
                              const char *name)
@@ -64,30 +73,64 @@ static trl_result draw_case(const struct bench_job *job, const struct cloud_case
     return result;
 }
 
-static trl_result measure_cover(const struct bench_job *job, double cover)
+static trl_result measure_views(const struct bench_job *job, const trl_scene *scene, double cover,
+                                struct cloud_case *c)
+{
+    trl_result result = TRL_OK;
+    for (int i = 0; i < 2 * VIEWS * SIZES && result == TRL_OK; i++) {
+        const char *view = views[i / 2 / SIZES];
+        c->size = sizes[i / 2 % SIZES];
+        c->is_flight = i % 2 == 1;
+        snprintf(c->name, sizeof c->name, "cover %g, %s %ux%u%s", cover, view, c->size.width,
+                 c->size.height, c->is_flight ? ", flight" : "");
+        result = trl_scene_view(scene, view, &c->view);
+        if (result == TRL_OK) {
+            result = trl_renderer_accumulate_clouds(c->renderer, c->is_flight);
+        }
+        if (result == TRL_OK) {
+            result = draw_case(job, c);
+            bench_show(job);
+        }
+    }
+    return result;
+}
+
+// The same clouds are met; only looks toward the star differ.
+static trl_result measure_suns(const struct bench_job *job, const trl_scene *scene, double cover,
+                               struct cloud_case *c)
+{
+    trl_result result = trl_renderer_accumulate_clouds(c->renderer, false);
+    c->size = sizes[SIZES - 1];
+    c->is_flight = false;
+    for (int i = 0; i < SUNS && result == TRL_OK; i++) {
+        snprintf(c->name, sizeof c->name, "%d sun samples, cover %g, ground %ux%u", suns[i].samples,
+                 cover, c->size.width, c->size.height);
+        result = trl_scene_view(scene, views[0], &c->view);
+        c->view.sun_mode = TRL_SUN_LOCAL;
+        c->view.sun_latitude_or_elevation_rad = suns[i].elevation_deg * pi / 180;
+        if (result == TRL_OK) {
+            result = draw_case(job, c);
+            bench_show(job);
+        }
+    }
+    return result;
+}
+
+static trl_result measure_cover(const struct bench_job *job, int cover)
 {
     trl_scene *scene = NULL;
     struct cloud_case c = {0};
-    trl_result result = bare_scene_make_cloudy(job->app, cover, &scene);
+    trl_result result = bare_scene_make_cloudy(job->app, covers[cover], &scene);
     if (result == TRL_OK) {
         trl_renderer_desc desc = bench_renderer_desc(job, scene);
         desc.measures_time = true;
         result = trl_renderer_create(job->app->ctx, &desc, &c.renderer);
     }
-    for (int i = 0; i < 2 * VIEWS * SIZES && result == TRL_OK; i++) {
-        const char *view = views[i / 2 / SIZES];
-        c.size = sizes[i / 2 % SIZES];
-        c.is_flight = i % 2 == 1;
-        snprintf(c.name, sizeof c.name, "cover %g, %s %ux%u%s", cover, view, c.size.width,
-                 c.size.height, c.is_flight ? ", flight" : "");
-        result = trl_scene_view(scene, view, &c.view);
-        if (result == TRL_OK) {
-            result = trl_renderer_accumulate_clouds(c.renderer, c.is_flight);
-        }
-        if (result == TRL_OK) {
-            result = draw_case(job, &c);
-            bench_show(job);
-        }
+    if (result == TRL_OK) {
+        result = measure_views(job, scene, covers[cover], &c);
+    }
+    if (result == TRL_OK && cover == SUN_COVER) {
+        result = measure_suns(job, scene, covers[cover], &c);
     }
     trl_renderer_destroy(&c.renderer);
     trl_scene_destroy(&scene);
@@ -98,8 +141,11 @@ trl_result bench_run_clouds(const struct bench_job *job)
 {
     trl_result result = TRL_OK;
     for (int i = 0; i < COVERS && result == TRL_OK; i++) {
-        result = measure_cover(job, covers[i]);
+        result = measure_cover(job, i);
     }
+    bench_note(job->table,
+               "Sun samples: of each lit place, with the star at 60 and at 5 degrees, where the "
+               "way to the layer's top is long.");
     bench_note(job->table,
                "The noise is a volume of 128^3 texels of 2 x 16 bits with its mip levels: "
                "9.6 MB on the GPU and as much in memory.");
