@@ -27,7 +27,7 @@ uniform vec4
     u_cloud_form[CLOUD_MAX_LAYERS]; // tiles of fibres per rad about the axis, 0: none; shear, m;
                                     // width of the edge in noise; border, m
 uniform vec4 u_cloud_belt[CLOUD_MAX_LAYERS]; // south, north, feather, rad; cover in cyclones
-uniform vec4 u_cloud_volume;     // texels a side, last level, tiles of systems a radius, has a map
+uniform vec4 u_cloud_volume;     // texels a side, last level, tiles of systems a radius, maps
 uniform float u_cloud_spread[8]; // by level
 uniform sampler3D u_cloud_noise;
 
@@ -37,15 +37,18 @@ struct CloudLayer {
     vec3 anchor, detail_anchor, field_anchor, wide_anchor;
     vec3 bend, field_bend, eye;
     vec2 turn;
+    vec4 channel; // of the map
 };
 
 CloudLayer cloud_layer(int index)
 {
-    return CloudLayer(
-        u_cloud_shell[index], u_cloud_grain[index], u_cloud_form[index], u_cloud_belt[index],
-        u_cloud_anchor[index].xyz, u_cloud_detail_anchor[index].xyz,
-        u_cloud_field_anchor[index].xyz, u_cloud_wide_anchor[index].xyz, u_cloud_bend[index].xyz,
-        u_cloud_field_bend[index].xyz, u_cloud_eye[index].xyz, u_cloud_turn[index].xy);
+    int map = u_cloud_volume.w > 1.5 ? index : 0;
+    return CloudLayer(u_cloud_shell[index], u_cloud_grain[index], u_cloud_form[index],
+                      u_cloud_belt[index], u_cloud_anchor[index].xyz,
+                      u_cloud_detail_anchor[index].xyz, u_cloud_field_anchor[index].xyz,
+                      u_cloud_wide_anchor[index].xyz, u_cloud_bend[index].xyz,
+                      u_cloud_field_bend[index].xyz, u_cloud_eye[index].xyz, u_cloud_turn[index].xy,
+                      vec4(equal(ivec4(0, 1, 2, 3), ivec4(map))));
 }
 
 // A place, or a direction, as the layer had it before the wind turned it.

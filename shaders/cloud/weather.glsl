@@ -11,7 +11,8 @@
 
 const int CLOUD_MAX_CYCLONES = 4;
 
-uniform sampler2D u_cloud_map; // cover, equirectangular, row 0 north, left edge 180 W
+// Cover, of all layers or a channel for each; equirectangular, row 0 north, left edge 180 W.
+uniform sampler2D u_cloud_map;
 uniform int u_cyclones;
 uniform vec4 u_cyclone_at[CLOUD_MAX_CYCLONES];   // unit, to its eye; spheres' radii over its own
 uniform vec4 u_cyclone_east[CLOUD_MAX_CYCLONES]; // unit; radius of its eye over its own
@@ -53,7 +54,8 @@ float cloud_cover(CloudLayer layer, vec3 place, float width)
     vec2 at = vec2(atan(unturned.y, unturned.x) * (0.5 / SHARED_PI) + 0.5,
                    0.5 - latitude * (1.0 / SHARED_PI));
     float texel = 2.0 * SHARED_PI * u_planet.x / float(textureSize(u_cloud_map, 0).x);
-    float map = textureLod(u_cloud_map, at, log2(max(width / texel, 1.0))).x;
+    vec4 maps = textureLod(u_cloud_map, at, log2(max(width / texel, 1.0)));
+    float map = dot(maps, layer.channel);
     vec4 belt = layer.belt;
     float inside = cyclone_step(belt.x - belt.z, belt.x, latitude) *
                    (1.0 - cyclone_step(belt.y, belt.y + belt.z, latitude));

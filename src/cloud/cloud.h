@@ -50,7 +50,7 @@ struct cloud_desc {
     struct cloud_cyclone cyclones[CLOUD_MAX_CYCLONES];
     double systems_m; // size of weather systems where there is no map; 0: none
     double seed;
-    char *map_path; // owned; raster of cover, NULL: none
+    char *map_path; // owned; raster of cover, of all layers or a band for each; NULL: none
 };
 
 #endif // CLOUD_CLOUD_H

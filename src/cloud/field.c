@@ -40,7 +40,17 @@ static trl_result take_values(const trl_context *ctx, const char *path, struct r
                                "%s: no pixel of it has data", path);
 }
 
-static trl_result load_map(const trl_context *ctx, const char *path, struct raster_grid *out)
+static void finish_maps(struct cloud_field *field)
+{
+    for (size_t i = 0; i < field->map_count; i++) {
+        raster_grid_finish(&field->maps[i]);
+    }
+    field->map_count = 0;
+}
+
+// A band for each layer, from below, where there are as many (alpha does not count), else the first
+// for all.
+static trl_result load_maps(const trl_context *ctx, const char *path, struct cloud_field *field)
 {
     struct raster raster;
     trl_result result = raster_open(ctx, path, &raster);
@@ -48,14 +58,20 @@ static trl_result load_map(const trl_context *ctx, const char *path, struct rast
         return result;
     }
     result = check_map(&raster);
-    if (result == TRL_OK) {
-        result = raster_grid_load(&raster, MAP_MAX_SIDE, out);
+    const size_t bands = raster.band_count - (raster.has_alpha ? 1 : 0);
+    const size_t layers = field->desc.layer_count;
+    const size_t wanted = bands >= layers ? layers : 1;
+    while (result == TRL_OK && field->map_count < wanted) {
+        struct raster_grid *map = &field->maps[field->map_count];
+        result = raster_grid_load(&raster, (uint32_t)field->map_count, MAP_MAX_SIDE, map);
         if (result == TRL_OK) {
-            result = take_values(ctx, path, out);
+            field->map_count++;
+            map->ctx = field->ctx; // `ctx` ends before it
+            result = take_values(ctx, path, map);
         }
-        if (result != TRL_OK) {
-            raster_grid_finish(out);
-        }
+    }
+    if (result != TRL_OK) {
+        finish_maps(field);
     }
     raster_finish(&raster);
     return result;
@@ -78,9 +94,7 @@ static trl_result take_map(struct cloud_field *field, const char *path)
     trl_context quiet = *field->ctx;
     quiet.desc.log = keep_error;
     quiet.desc.log_user = said;
-    const trl_result result = load_map(&quiet, path, &field->map);
-    field->map.ctx = field->ctx;
-    field->has_map = result == TRL_OK;
+    const trl_result result = load_maps(&quiet, path, field);
     const bool is_bad = result == TRL_ERROR_INVALID || result == TRL_ERROR_IO;
     if (is_bad && (remote_is_path(path) || access(path, F_OK) == 0)) {
         trl_log(field->ctx, TRL_LOG_WARN, TRL_LOG_ITEM_RASTER,
@@ -115,7 +129,7 @@ void cloud_field_finish(struct cloud_field *field)
     if (field->volume.ctx) {
         cloud_volume_finish(&field->volume);
     }
-    raster_grid_finish(&field->map);
+    finish_maps(field);
     *field = (struct cloud_field){0};
 }
 

@@ -18,11 +18,12 @@ struct cloud_field {
     // Cosine and sine of how far east the wind has turned a layer.
     double turn[CLOUD_MAX_LAYERS][2];
     struct cloud_volume volume;
-    bool has_map;
-    struct raster_grid map; // of cover, in [0, 1]
+    // Of cover, in [0, 1]: none, one for all layers, or one for each. Owned.
+    size_t map_count;
+    struct raster_grid maps[CLOUD_MAX_LAYERS];
 };
 
-// Loads the map, computes or loads the noise. What those return. *out is zeroed on failure.
+// Loads the maps, computes or loads the noise. What those return. *out is zeroed on failure.
 TRL_MUST_USE trl_result cloud_field_init(const trl_context *ctx, const struct cloud_desc *desc,
                                          double ground_radius_m, struct cloud_field *out);
 void cloud_field_finish(struct cloud_field *field);
@@ -67,6 +68,9 @@ double cloud_field_fibre_turns(const struct cloud_layer *layer, double ground_ra
 // what bends it.
 struct vec3 cloud_field_bent(struct vec3 unturned_m, double tile_m);
 void cloud_field_bend_phase(struct vec3 unturned_m, double tile_m, double out[3]);
+
+// What a layer's cover is a part of; NULL: the same everywhere.
+const struct raster_grid *cloud_field_map(const struct cloud_field *field, size_t layer);
 
 // Tiles of the noise of weather systems in the planet's radius; 0: there are none, or a map knows.
 double cloud_field_system_tiles(const struct cloud_field *field);

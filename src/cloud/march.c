@@ -35,20 +35,33 @@ static trl_result upload_noise(struct cloud_march *m)
     return result;
 }
 
-static trl_result upload_map(struct cloud_march *m)
+// A channel for each.
+static trl_result upload_maps(struct cloud_march *m)
 {
-    const struct raster_grid *map = &m->field->map;
-    const float nothing = 0;
+    const struct cloud_field *field = m->field;
+    const size_t channels = field->map_count > 1 ? 4 : 1;
+    const uint32_t width = field->map_count > 0 ? field->maps[0].width : 1;
+    const uint32_t height = field->map_count > 0 ? field->maps[0].height : 1;
+    float *texels = mem_alloc(m->gpu->ctx, channels * width * height, sizeof *texels);
+    if (!texels) {
+        return TRL_ERROR_MEMORY;
+    }
+    for (size_t k = 0; k < field->map_count; k++) {
+        for (size_t i = 0; i < (size_t)width * height; i++) {
+            texels[channels * i + k] = field->maps[k].values[i];
+        }
+    }
     struct gpu_texture_desc desc = gpu_texture_desc_default();
     desc.label = "map of clouds";
-    desc.format = GPU_FORMAT_R16F;
+    desc.format = channels > 1 ? GPU_FORMAT_RGBA16F : GPU_FORMAT_R16F;
     desc.filter = GPU_FILTER_TRILINEAR;
     desc.wrap_x = GPU_WRAP_REPEAT;
-    desc.width = m->field->has_map ? map->width : 1;
-    desc.height = m->field->has_map ? map->height : 1;
+    desc.width = width;
+    desc.height = height;
     desc.levels = 0;
-    desc.data = m->field->has_map ? map->values : &nothing;
-    trl_result result = gpu_texture_init(m->gpu, &desc, &m->map);
+    desc.data = texels;
+    const trl_result result = gpu_texture_init(m->gpu, &desc, &m->map);
+    mem_free(m->gpu->ctx, texels);
     return result == TRL_OK ? gpu_texture_make_mips(&m->map) : result;
 }
 
@@ -60,7 +73,7 @@ trl_result cloud_march_init(struct gpu *gpu, const struct cloud_field *field,
     cloud_shade_init(gpu, &out->shade);
     trl_result result = upload_noise(out);
     if (result == TRL_OK) {
-        result = upload_map(out);
+        result = upload_maps(out);
     }
     if (result != TRL_OK) {
         cloud_march_finish(out);

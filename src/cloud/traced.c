@@ -45,17 +45,18 @@ static double most_cover(const struct cloud_field *field, size_t layer, struct v
                          double reach_m)
 {
     const struct cloud_layer *l = &field->desc.layers[layer];
-    double map = 1;
-    if (field->has_map) {
+    const struct raster_grid *map = cloud_field_map(field, layer);
+    double part = 1;
+    if (map) {
         const struct vec3 up = vec3_normalize(cloud_field_unturned(field, layer, position_m));
         const double latitude = asin(fmax(-1, fmin(1, up.z)));
-        const double here = raster_grid_sample(&field->map, latitude, atan2(up.y, up.x)).value;
+        const double here = raster_grid_sample(map, latitude, atan2(up.y, up.x)).value;
         const double reach = reach_m / vec3_length(position_m);
-        const double side = 2 * SHARED_PI / field->map.width * fmax(cos(latitude) - reach, 0);
-        const double lower = SHARED_PI / field->map.height;
-        map = side > 0 ? fmin(1, here + reach / side + reach / lower) : 1;
+        const double side = 2 * SHARED_PI / map->width * fmax(cos(latitude) - reach, 0);
+        const double lower = SHARED_PI / map->height;
+        part = side > 0 ? fmin(1, here + reach / side + reach / lower) : 1;
     }
-    double cover = l->cover * map;
+    double cover = l->cover * part;
     double tiles[3];
     if (cloud_field_system_place(field, layer, position_m, tiles)) {
         const bool are_wide = CLOUD_SYSTEM_TILES * field->desc.systems_m >=
@@ -107,7 +108,8 @@ static double layer_most(const struct cloud_field *field, size_t layer, struct v
     const double cover = cloud_gathered_cover(
         most_cover(field, layer, position_m, *reach_m),
         most_wide_noise(field, cloud_field_bent(unturned_m, field_m), field_m),
-        field->has_map ? 0.5 : most_wide_noise(field, cloud_field_wide_place(unturned_m), wide_m));
+        field->map_count > 0 ? 0.5
+                             : most_wide_noise(field, cloud_field_wide_place(unturned_m), wide_m));
     const double x = joint - cloud_threshold(cover, signal) + slack;
     return l->extinction_per_m * fmin(fmax(x / cloud_field_edge(l->type), 0), 1) * (1 + slack);
 }

@@ -130,7 +130,7 @@ void cloud_march_set_field(const struct cloud_march *m, const struct camera *cam
         spread[level] = (float)field->volume.spread[level];
     }
     const float volume[4] = {CLOUD_SIDE, CLOUD_LEVELS - 1, (float)cloud_field_system_tiles(field),
-                             field->has_map ? 1.0f : 0.0f};
+                             (float)field->map_count};
     set_layers(field, program);
     set_anchors(field, camera, program);
     set_cyclones(field, program);

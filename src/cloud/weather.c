@@ -7,13 +7,19 @@
 #include "shared/cloud.glsl"
 #include "shared/cyclone.glsl"
 
+const struct raster_grid *cloud_field_map(const struct cloud_field *field, size_t layer)
+{
+    return field->map_count > 0 ? &field->maps[layer % field->map_count] : NULL;
+}
+
 static double find_map(const struct cloud_field *field, size_t layer, struct vec3 position_m)
 {
-    if (!field->has_map) {
+    const struct raster_grid *map = cloud_field_map(field, layer);
+    if (!map) {
         return 1;
     }
     const struct vec3 up = vec3_normalize(cloud_field_unturned(field, layer, position_m));
-    return raster_grid_sample(&field->map, asin(fmax(-1, fmin(1, up.z))), atan2(up.y, up.x)).value;
+    return raster_grid_sample(map, asin(fmax(-1, fmin(1, up.z))), atan2(up.y, up.x)).value;
 }
 
 static double find_belt(const struct cloud_belt *belt, double latitude_rad)
@@ -51,7 +57,7 @@ static double cover_with(const struct cloud_field *field, const struct cloud_cyc
 
 double cloud_field_system_tiles(const struct cloud_field *field)
 {
-    return field->desc.systems_m > 0 && !field->has_map
+    return field->desc.systems_m > 0 && field->map_count == 0
                ? field->ground_radius_m / (CLOUD_SYSTEM_TILES * field->desc.systems_m)
                : 0;
 }
@@ -106,5 +112,5 @@ double cloud_field_gathered(const struct cloud_field *field, size_t layer, struc
     return cloud_gathered_cover(
         cloud_field_cover(field, layer, position_m),
         cloud_volume_sample(&field->volume, narrow, narrow_level).value,
-        field->has_map ? 0.5 : cloud_volume_sample(&field->volume, wide, wide_level).value);
+        field->map_count > 0 ? 0.5 : cloud_volume_sample(&field->volume, wide, wide_level).value);
 }

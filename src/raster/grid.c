@@ -6,7 +6,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-trl_result raster_grid_load(const struct raster *raster, uint32_t max_side, struct raster_grid *out)
+trl_result raster_grid_load(const struct raster *raster, uint32_t band, uint32_t max_side,
+                            struct raster_grid *out)
 {
     const struct raster_window window = raster_window_whole(raster, max_side);
     if (raster->plane.pole != 0) {
@@ -29,7 +30,7 @@ trl_result raster_grid_load(const struct raster *raster, uint32_t max_side, stru
         .values =
             mem_alloc(raster->ctx, (size_t)window.out_width * window.out_height, sizeof(float))};
     const trl_result result =
-        out->values ? raster_read_float(raster, &window, 0, out->values) : TRL_ERROR_MEMORY;
+        out->values ? raster_read_float(raster, &window, band, out->values) : TRL_ERROR_MEMORY;
     if (result != TRL_OK) {
         raster_grid_finish(out);
     }

@@ -18,11 +18,11 @@ struct raster_grid {
     float *values;                     // owned; width x height, north row first; NaN: no data
 };
 
-// Reads band 0 at no more than `max_side` pixels in either direction (0: all of them).
+// Reads a band, from 0, at no more than `max_side` pixels in either direction (0: all of them).
 // Returns TRL_OK; TRL_ERROR_IO; TRL_ERROR_INVALID (also: stereographic); TRL_ERROR_MEMORY. *out is
 // zeroed on failure.
-TRL_MUST_USE trl_result raster_grid_load(const struct raster *raster, uint32_t max_side,
-                                         struct raster_grid *out);
+TRL_MUST_USE trl_result raster_grid_load(const struct raster *raster, uint32_t band,
+                                         uint32_t max_side, struct raster_grid *out);
 
 // Frees it. A zeroed grid is a no-op.
 void raster_grid_finish(struct raster_grid *grid);

@@ -5,9 +5,13 @@
 
 #include "cloud/march.h"
 
+#include <gdal.h>
 #include <math.h>
+#include <ogr_srs_api.h>
+#include <unistd.h>
 
 static const double RADIUS_M = 6371000;
+static const double EAST_DEG = -60; // of the cameras is what lies east of that
 
 struct drawn {
     struct gpu_texture texture;
@@ -95,17 +99,20 @@ static void draw_point(struct fixture *f, struct cloud_march *march, struct draw
 }
 
 // Returns whether it is in cloud.
-static bool compare_place(struct fixture *f, struct cloud_march *march, struct drawn *d, int i)
+static bool compare_place(struct fixture *f, struct cloud_march *march, struct drawn *d,
+                          size_t layer_index, int i)
 {
-    const struct cloud_layer *layer = &march->field->desc.layers[0];
+    const struct cloud_layer *layer = &march->field->desc.layers[layer_index];
     const struct camera camera = make_camera(layer);
     float place[4], got[4];
     find_place(layer, &camera, i, place);
     place[3] = (float)(0.0235 * i - 2.4);
+    gpu_program_set_int(&d->program, "u_layer", (int32_t)layer_index);
     draw_point(f, march, d, &camera, place, got);
     const struct vec3 exact = {(double)place[0], (double)place[1], (double)place[2]};
     const struct vec3 position = vec3_add(camera.position_m, exact);
-    const double wanted = cloud_field_extinction(march->field, 0, position, (double)place[3]);
+    const double wanted =
+        cloud_field_extinction(march->field, layer_index, position, (double)place[3]);
     // Weights of filters may have 8 bits: 1/256 of the noise's steps between texels (0.1),
     // over an edge of 0.12; and half a metre of height in floats.
     if (fabs((double)got[0] - wanted) > 0.01 * layer->extinction_per_m + 0.01 * wanted) {
@@ -138,13 +145,77 @@ static void the_gpu_s_field_is_the_cpu_s(void **state)
         struct drawn d = make_drawn(f);
         int clouds = 0;
         for (int i = 0; i < 400; i += n == 0 ? 1 : 2) {
-            clouds += compare_place(f, &march, &d, i);
+            clouds += compare_place(f, &march, &d, 0, i);
         }
         assert_true(clouds > 10); // or nothing has been compared
         finish_drawn(&d);
         cloud_march_finish(&march);
         cloud_field_finish(&field);
     }
+}
+
+// A map with a band for each layer: clouds of the first in the west, of the second in the east,
+// where the eye is (39 degrees west).
+static void write_bands(const char *path)
+{
+    enum { WIDE = 64, HIGH = 32, BANDS = 2 };
+    GDALAllRegister();
+    const GDALDatasetH file =
+        GDALCreate(GDALGetDriverByName("GTiff"), path, WIDE, HIGH, BANDS, GDT_Byte, NULL);
+    assert_non_null(file);
+    double transform[6] = {-180, 360.0 / WIDE, 0, 90, 0, -180.0 / HIGH};
+    assert_int_equal(GDALSetGeoTransform(file, transform), CE_None);
+    const OGRSpatialReferenceH srs = OSRNewSpatialReference(NULL);
+    assert_int_equal(OSRImportFromEPSG(srs, 4326), OGRERR_NONE);
+    assert_int_equal(GDALSetSpatialRef(file, srs), CE_None);
+    OSRDestroySpatialReference(srs);
+    static uint8_t rows[BANDS][WIDE * HIGH];
+    for (int i = 0; i < WIDE * HIGH; i++) {
+        const double longitude = (i % WIDE + 0.5) * 360 / WIDE - 180;
+        rows[0][i] = longitude < EAST_DEG ? 255 : 0;
+        rows[1][i] = 255 - rows[0][i];
+    }
+    for (int band = 0; band < BANDS; band++) {
+        assert_int_equal(GDALRasterIO(GDALGetRasterBand(file, band + 1), GF_Write, 0, 0, WIDE, HIGH,
+                                      rows[band], WIDE, HIGH, GDT_Byte, 0, 0),
+                         CE_None);
+    }
+    GDALClose(file);
+}
+
+static void bands_of_a_map_are_of_the_layers(void **state)
+{
+    struct fixture *f = *state;
+    char path[] = "/tmp/terrella-bands-XXXXXX";
+    assert_true(close(mkstemp(path)) == 0);
+    write_bands(path);
+    const struct cloud_layer cumulus = {CLOUD_CUMULUS, 900, 2600, 0.6, 0.04,
+                                        8000,          0,   0,    0.9, CLOUD_EVERYWHERE};
+    const struct cloud_desc desc = {
+        .layer_count = 2, .seed = 5, .map_path = path, .layers = {cumulus, cumulus}};
+    struct cloud_field field;
+    struct cloud_march march;
+    assert_int_equal(cloud_field_init(f->ctx, &desc, RADIUS_M, &field), TRL_OK);
+    assert_int_equal(field.map_count, 2);
+    for (int layer = 0; layer < 2; layer++) {
+        for (int side = -1; side <= 1; side += 2) {
+            const struct vec3 there = vec3_from_lat_lon(0.3, EAST_DEG * 0.0174532925 + 0.5 * side);
+            const double cover = cloud_field_cover(&field, (size_t)layer, vec3_scale(there, 6.4e6));
+            assert_true((cover > 0.1) == ((side < 0) == (layer == 0)));
+        }
+    }
+    assert_int_equal(cloud_march_init(f->gpu, &field, &march), TRL_OK);
+    struct drawn d = make_drawn(f);
+    int clouds[2] = {0, 0};
+    for (int i = 0; i < 200; i++) {
+        clouds[i % 2] += compare_place(f, &march, &d, (size_t)i % 2, i);
+    }
+    print_message("%d and %d places in clouds\n", clouds[0], clouds[1]);
+    assert_true(clouds[0] == 0 && clouds[1] > 10);
+    finish_drawn(&d);
+    cloud_march_finish(&march);
+    cloud_field_finish(&field);
+    unlink(path);
 }
 
 // Of places in cloud, what comes through to them from the star, in the mean: wide pixels find twice
@@ -243,6 +314,7 @@ static void under_low_stars_farther_clouds_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(the_gpu_s_field_is_the_cpu_s),
+                                       cmocka_unit_test(bands_of_a_map_are_of_the_layers),
                                        cmocka_unit_test(clouds_are_as_deep_from_afar),
                                        cmocka_unit_test(under_low_stars_farther_clouds_are_found)};
     return cmocka_run_group_tests(tests, fixture_set_up_gpu, fixture_tear_down);

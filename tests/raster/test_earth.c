@@ -29,7 +29,7 @@ static void load(trl_context *ctx, const char *name, struct raster_grid *out)
     assert_non_null(path);
     struct raster raster;
     assert_int_equal(raster_open(ctx, path, &raster), TRL_OK);
-    assert_int_equal(raster_grid_load(&raster, 0, out), TRL_OK);
+    assert_int_equal(raster_grid_load(&raster, 0, 0, out), TRL_OK);
     raster_finish(&raster);
     mem_free(ctx, path);
 }

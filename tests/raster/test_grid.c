@@ -10,7 +10,7 @@ static void load_grid(struct fixture *f, const struct recipe *r, struct raster_g
 {
     struct raster raster;
     open_made(f, r, &raster);
-    assert_int_equal(raster_grid_load(&raster, 0, grid), TRL_OK);
+    assert_int_equal(raster_grid_load(&raster, 0, 0, grid), TRL_OK);
     raster_finish(&raster);
 }
 
@@ -120,7 +120,7 @@ static void every_failed_allocation_is_told(void **state)
         struct raster_grid grid = {0};
         result = raster_open(ctx, path, &raster);
         if (result == TRL_OK) {
-            result = raster_grid_load(&raster, 0, &grid);
+            result = raster_grid_load(&raster, 0, 0, &grid);
         }
         assert_true(result == TRL_OK || (result == TRL_ERROR_MEMORY && !grid.values));
         raster_grid_finish(&grid);

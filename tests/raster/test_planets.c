@@ -52,7 +52,7 @@ static void check_body(const char *body, const struct place *places, size_t coun
         struct raster raster;
         struct raster_grid grid;
         assert_int_equal(raster_open(ctx, path, &raster), TRL_OK);
-        assert_int_equal(raster_grid_load(&raster, 0, &grid), TRL_OK);
+        assert_int_equal(raster_grid_load(&raster, 0, 0, &grid), TRL_OK);
         for (size_t i = 0; i < count; i++) {
             const struct raster_sample s =
                 raster_grid_sample(&grid, places[i].lat_deg * RADIAN, places[i].lon_deg * RADIAN);

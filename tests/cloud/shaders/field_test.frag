@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// Extinction of the first layer at a place, with its height, and the optical depths toward the
+// Extinction of a layer at a place, with its height, and the optical depths toward the
 // star: nearby and farther.
 #include "cloud/weather.glsl"
 
+uniform int u_layer;
 uniform vec4 u_place; // relative to the eye, m; level
 uniform vec2 u_width; // of a pixel that looks toward the star; how its levels are rounded
 
@@ -11,7 +12,7 @@ out vec4 out_point;
 
 void main()
 {
-    CloudLayer layer = cloud_layer(0);
+    CloudLayer layer = cloud_layer(u_layer);
     CloudBox box = cloud_box(layer, u_place.w);
     float cover = cloud_cover(layer, u_place.xyz, 1.0);
     cover = cloud_gathered(layer, u_place.xyz, cover, box);
