@@ -12,14 +12,21 @@
 //
 //     sum of (T_n-1 - T_n) (cloud's light there, dimmed by the air + A(s_n)) + T picture
 //
-// so air is looked up only where cloud is.
+// so air is looked up only where cloud is. With MOON a body stands for the star, and its light is
+// added to what is there.
 // validate: PEAKED_COUNT 1
+// validate: PEAKED_COUNT 1; MOON
+// validate: PEAKED_COUNT 1; SURFACE; MOON
+// validate: PEAKED_COUNT 1; SURFACE; MARCH; ECLIPSE
 // validate: PEAKED_COUNT 0
 // validate: PEAKED_COUNT 1; SURFACE; MARCH
 
 #include "cloud/light.glsl"
 #include "cloud/weather.glsl"
 #include "sky/deck.glsl"
+#ifdef ECLIPSE
+#include "sky/eclipse.glsl"
+#endif
 #include "sky/spectral/air.glsl"
 #include "sky/spectral/colour.glsl"
 
@@ -146,6 +153,20 @@ Lights lights_by_clouds(CloudLayer layer, Lights lights, vec3 place, float sun_m
     lights.above *= passed;
     lights.slope *= passed;
     lights.horizon *= passed;
+    return lights;
+}
+
+Lights lights_in_eclipse(Lights lights, vec3 place)
+{
+#ifdef ECLIPSE
+    float star = star_left(place);
+    vec4 sky = ground_left(place, star);
+    lights.sun *= star;
+    lights.above *= sky;
+    lights.below *= sky;
+    lights.slope *= sky;
+    lights.horizon *= sky;
+#endif
     return lights;
 }
 
@@ -351,8 +372,8 @@ void main()
             if (taken > 0.0) {
                 float at = moment / taken;
                 vec3 lit_at = ray.direction * at;
-                Lights lights =
-                    lights_by_clouds(layer, lights_at(lit_at), lit_at, max(sun_mu, 0.0));
+                Lights lights = lights_in_eclipse(lights_at(lit_at), lit_at);
+                lights = lights_by_clouds(layer, lights, lit_at, max(sun_mu, 0.0));
                 Air before = air_before(ray, at);
                 vec3 light = before.scattered;
 #ifdef MARCH
@@ -374,5 +395,6 @@ void main()
     float scale = left < OPAQUE ? 1.0 / (1.0 - left) : 1.0;
     left = left < OPAQUE ? 0.0 : left;
     vec4 joined = join_radiance(bands * scale, air * scale);
-    out_clouds = vec4(joined.rgb, 1.0 - left);
+    out_clouds = vec4(joined.rgb, ALPHA * (1.0 - left));
+    out_distance *= ALPHA;
 }

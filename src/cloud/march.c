@@ -84,6 +84,7 @@ trl_result cloud_march_init(struct gpu *gpu, const struct cloud_field *field,
 static void finish_programs(struct cloud_march *m)
 {
     gpu_program_finish(&m->march);
+    gpu_program_finish(&m->moonlit);
     gpu_program_finish(&m->filter);
     gpu_program_finish(&m->sharpen);
     gpu_program_finish(&m->join);
@@ -134,7 +135,9 @@ static trl_result make_program(struct gpu *gpu, const char *fragment, const char
 static trl_result make_programs(struct cloud_march *m, const struct cloud_view *view)
 {
     const bool is_bare = view->position == NULL;
+    const bool has_moon = view->air->bind_moon;
     if (m->is_made && m->is_bare == is_bare && m->has_march == view->air->has_march &&
+        m->has_eclipse == view->air->has_eclipse && (m->has_moon || !has_moon) &&
         m->peaked_count == view->air->peaked_count) {
         return TRL_OK;
     }
@@ -145,7 +148,8 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     const char *const filter[] = {"FILTER", is_bare ? NULL : "SURFACE", NULL};
     const char *const sharpen[] = {"SHARPEN", NULL};
     const char *const nothing[] = {NULL};
-    const char *march[4] = {peaked};
+    const char *const moonlit[] = {peaked, "MOON", is_bare ? NULL : "SURFACE", NULL};
+    const char *march[5] = {peaked};
     size_t count = 1;
     if (!is_bare) {
         march[count++] = "SURFACE";
@@ -153,7 +157,13 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     if (view->air->has_march) {
         march[count++] = "MARCH";
     }
+    if (view->air->has_eclipse) {
+        march[count++] = "ECLIPSE";
+    }
     trl_result result = make_program(m->gpu, "cloud/march.frag", march, &m->march);
+    if (result == TRL_OK && has_moon) {
+        result = make_program(m->gpu, "cloud/march.frag", moonlit, &m->moonlit);
+    }
     if (result == TRL_OK) {
         result = make_program(m->gpu, "cloud/join.frag", filter, &m->filter);
     }
@@ -174,6 +184,8 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     }
     m->is_bare = is_bare;
     m->has_march = view->air->has_march;
+    m->has_eclipse = view->air->has_eclipse;
+    m->has_moon = has_moon;
     m->peaked_count = view->air->peaked_count;
     m->is_made = result == TRL_OK;
     return result;
@@ -257,19 +269,31 @@ static trl_result prepare(struct cloud_march *m, const struct cloud_view *view)
     return result == TRL_OK ? fit_targets(m, view->target) : result;
 }
 
+// Whose light a pass is for.
+static void bind_light(const struct cloud_view *view, bool is_moon, bool whole,
+                       struct gpu_program *program)
+{
+    if (is_moon) {
+        view->air->bind_moon(view->air->self, program);
+    } else {
+        view->air->bind(view->air->self, whole, program);
+    }
+}
+
+static trl_result draw_deck(struct cloud_march *march, const struct cloud_view *view, bool is_moon)
+{
+    bind_light(view, is_moon, false, &march->deck.program);
+    cloud_march_set_field(march, view->camera, &march->deck.program);
+    return cloud_deck_draw(&march->deck);
+}
+
 trl_result cloud_march_deck(struct cloud_march *march, const struct cloud_view *view)
 {
-    struct cloud_deck *deck = &march->deck;
     trl_result result = prepare(march, view);
     if (result == TRL_OK) {
-        result = cloud_deck_begin(deck, march->field, view->camera);
+        result = cloud_deck_begin(&march->deck, march->field, view->camera);
     }
-    if (result != TRL_OK) {
-        return result;
-    }
-    view->air->bind(view->air->self, false, &deck->program);
-    cloud_march_set_field(march, view->camera, &deck->program);
-    return cloud_deck_draw(deck);
+    return result == TRL_OK ? draw_deck(march, view, false) : result;
 }
 
 trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view)
@@ -279,7 +303,7 @@ trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view 
     view->air->bind(view->air->self, false, &shade->sort);
     gpu_program_set_texture(&shade->sort, "u_hidden", &march->hidden);
     set_view(view, &shade->shade);
-    view->air->bind(view->air->self, false, &shade->shade);
+    bind_light(view, view->is_moonlit, false, &shade->shade);
     cloud_march_set_field(march, view->camera, &shade->shade);
     return cloud_shade_draw(shade);
 }
@@ -335,20 +359,34 @@ trl_result cloud_march_join(struct cloud_march *march, const struct cloud_view *
     return gpu_draw_fullscreen(&march->join, "clouds");
 }
 
-// Marches all rays into the next texture, or a quarter of them into the history's.
+static trl_result march_light(struct cloud_march *march, const struct cloud_view *view,
+                              const float grid[3], const struct gpu_target *target, bool is_moon)
+{
+    struct gpu_program *program = is_moon ? &march->moonlit : &march->march;
+    const struct gpu_pass clouds = {.target = target,
+                                    .state.blend = is_moon ? GPU_BLEND_ADD : GPU_BLEND_NONE};
+    bind_light(view, is_moon, true, program);
+    cloud_march_set_field(march, view->camera, program);
+    set_view(view, program);
+    gpu_program_set_vec3(program, "u_grid", grid);
+    gpu_program_set_float(program, "u_sharp", find_sharpness(march, view));
+    gpu_program_set_texture(program, "u_deck", &march->deck.map);
+    gpu_program_set_vec4(program, "u_deck_map", march->deck.place);
+    gpu_pass_begin(march->gpu, &clouds);
+    return gpu_draw_fullscreen(program, "clouds");
+}
+
+// Marches all rays into the next texture, or a quarter of them into the history's. A moon's light
+// is added, with a deck toward it: who asks for that later asks for what is overhead.
 static trl_result march_rays(struct cloud_march *march, const struct cloud_view *view,
                              const float grid[3], const struct gpu_target *target)
 {
-    const struct gpu_pass clouds = {.target = target};
-    view->air->bind(view->air->self, true, &march->march);
-    cloud_march_set_field(march, view->camera, &march->march);
-    set_view(view, &march->march);
-    gpu_program_set_vec3(&march->march, "u_grid", grid);
-    gpu_program_set_float(&march->march, "u_sharp", find_sharpness(march, view));
-    gpu_program_set_texture(&march->march, "u_deck", &march->deck.map);
-    gpu_program_set_vec4(&march->march, "u_deck_map", march->deck.place);
-    gpu_pass_begin(march->gpu, &clouds);
-    return gpu_draw_fullscreen(&march->march, "clouds");
+    trl_result result = march_light(march, view, grid, target, false);
+    if (result == TRL_OK && view->air->bind_moon) {
+        result = draw_deck(march, view, true);
+        result = result == TRL_OK ? march_light(march, view, grid, target, true) : result;
+    }
+    return result;
 }
 
 static trl_result accumulate(struct cloud_march *march, const struct cloud_view *view)

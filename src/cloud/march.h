@@ -25,10 +25,13 @@
 // The air of the model of the sky: what programs that include sky/spectral/air.glsl need.
 struct cloud_air {
     int peaked_count;
-    bool has_march; // with shadows in the air
+    bool has_march;   // with shadows in the air
+    bool has_eclipse; // with a body before the star
     // Sets the uniforms of sky/ray.glsl, and with `whole` those of sky/spectral/air.glsl and the
     // light on the ground.
     void (*bind)(const void *self, bool whole, struct gpu_program *program);
+    // The same, whole, for the light of a moon, which is added. NULL: there is none.
+    void (*bind_moon)(const void *self, struct gpu_program *program);
     const void *self;
 };
 
@@ -37,9 +40,9 @@ struct cloud_march {
     const struct cloud_field *field;
     struct gpu_texture noise, map;
     bool is_made; // with the programs for:
-    bool is_bare, has_march;
+    bool is_bare, has_march, has_eclipse, has_moon;
     int peaked_count;
-    struct gpu_program march, filter, sharpen, join, find_hidden;
+    struct gpu_program march, moonlit, filter, sharpen, join, find_hidden;
     uint32_t width, height;       // of the last picture
     struct gpu_texture clouds[2]; // this frame's and the one before
     struct gpu_texture joined, ends, sharpened, hidden;
@@ -66,12 +69,13 @@ struct cloud_view {
     const struct gpu_target *target;
     const struct cloud_air *air;
     double time_s;
+    bool is_moonlit;  // the ground has the moon's light, and clouds shade that
     bool accumulates; // marches a quarter, with the rest from frames before where it was seen
 };
 
 // A frame calls these in this order. The map of `deck`, which the air's own shadows ask for:
 TRL_MUST_USE trl_result cloud_march_deck(struct cloud_march *march, const struct cloud_view *view);
-// `clouds` and `hidden`;
+// `clouds` and `hidden`; with a moon's light the deck is then that toward it;
 TRL_MUST_USE trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *view);
 // what `shade` has, before ground is lit;
 TRL_MUST_USE trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view);

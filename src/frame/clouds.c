@@ -86,16 +86,28 @@ static void bind_air(const void *self, bool whole, struct gpu_program *program)
     source->air.bind(source->air.self, source->view, whole, program);
 }
 
+static void bind_moon(const void *self, struct gpu_program *program)
+{
+    const struct air_source *source = self;
+    source->air.bind_moon(source->air.self, source->view, program);
+}
+
 static trl_result draw(struct clouds *clouds, const struct sky *sky, const struct sky_view *view,
                        trl_result (*part)(struct cloud_march *, const struct cloud_view *))
 {
     const struct air_source source = {sky_get_air(sky, view), view};
-    const struct cloud_air air = {source.air.peaked_count, source.air.has_march, bind_air, &source};
+    const struct cloud_air air = {.peaked_count = source.air.peaked_count,
+                                  .has_march = source.air.has_march,
+                                  .has_eclipse = source.air.has_eclipse,
+                                  .bind = bind_air,
+                                  .bind_moon = source.air.bind_moon ? bind_moon : NULL,
+                                  .self = &source};
     const struct cloud_view cloud_view = {.camera = view->camera,
                                           .position = view->surface.position,
                                           .target = view->target,
                                           .air = &air,
                                           .time_s = clouds->time_s,
+                                          .is_moonlit = view->moon.is_main,
                                           .accumulates = clouds->accumulates};
     return part(&clouds->march, &cloud_view);
 }

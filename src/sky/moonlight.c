@@ -141,16 +141,23 @@ struct sky_moon moonlight_find(const struct moonlight *moonlight, const struct a
 static trl_result make_program(const struct moonlight *moonlight, const char *fragment,
                                const char *define, struct gpu_program *out)
 {
-    const bool has_sea = define && moonlight->sea->water.sea;
     char peaked[32];
     snprintf(peaked, sizeof peaked, "PEAKED_COUNT %d", moonlight->maps.atmosphere->peaked.count);
-    const char *const defines[] = {peaked, "MOON", define, "SEA"};
+    const char *defines[5] = {peaked, "MOON"};
+    size_t count = 2;
+    if (define) {
+        defines[count++] = define;
+    }
+    if (define && moonlight->sea->water.sea) {
+        defines[count++] = "SEA";
+    }
+    if (moonlight->has_clouds) {
+        defines[count++] = "CLOUDS";
+    }
     const struct gpu_program_desc desc = {.vertex = "lib/layer.vert",
                                           .fragment = fragment,
                                           .defines = defines,
-                                          .define_count = has_sea  ? 4
-                                                          : define ? 3
-                                                                   : 2};
+                                          .define_count = count};
     gpu_program_finish(out); // what an attempt that failed has left
     return gpu_program_init(moonlight->gpu, &desc, out);
 }
@@ -178,7 +185,9 @@ trl_result moonlight_prepare(struct moonlight *moonlight, const struct spectral_
     if (!moonlight->maps.atmosphere) {
         result = spectral_maps_init_beside(star, &moonlight->maps);
     }
-    if (result == TRL_OK && !moonlight->has_programs) {
+    const bool has_clouds = view->cloud_shade != NULL;
+    if (result == TRL_OK && (!moonlight->has_programs || moonlight->has_clouds != has_clouds)) {
+        moonlight->has_clouds = has_clouds;
         result = make_programs(moonlight);
     }
     const struct vec3 up = vec3_normalize(view->camera->position_m);
@@ -186,7 +195,7 @@ trl_result moonlight_prepare(struct moonlight *moonlight, const struct spectral_
         .radius_m = fmax(vec3_length(view->camera->position_m),
                          star->atmosphere->optics->ground_radius_m + SKY_MIN_ALTITUDE_M),
         .sun_mu = vec3_dot(up, view->moon.sight.direction),
-        .highest_m = view->highest_m};
+        .highest_m = fmax(view->highest_m, view->cloud_top_m)};
     return result == TRL_OK ? spectral_maps_update(&moonlight->maps, &eye) : result;
 }
 
@@ -241,12 +250,37 @@ static void set_colours(const struct moonlight *moonlight, struct gpu_program *p
     gpu_program_set_float(program, "u_shadowed", view->moon.is_main ? 1 : 0);
 }
 
+// The view as if the moon were the star.
+struct moonlit {
+    struct camera camera;
+    struct sky_view view;
+};
+
+static void light_by_moon(const struct sky_view *view, struct moonlit *out)
+{
+    out->camera = *view->camera;
+    out->camera.sun_direction = view->moon.sight.direction;
+    out->view = *view;
+    out->view.camera = &out->camera;
+    out->view.is_added = true;
+}
+
+void moonlight_bind(const struct moonlight *moonlight, const struct sky_pixels *pixels,
+                    const struct sky_view *view, struct gpu_program *program)
+{
+    struct moonlit moonlit;
+    light_by_moon(view, &moonlit);
+    sky_pixels_set_view(pixels, program, &moonlit.view);
+    set_colours(moonlight, program, &moonlit.view);
+    spectral_maps_bind(&moonlight->maps, program);
+}
+
 static trl_result draw_kind(struct moonlight *moonlight, const struct sky_pixels *pixels,
                             enum sky_kind kind, const struct sky_view *view)
 {
     struct gpu_program *program = &moonlight->air;
     if (kind == SKY_KIND_SEA) {
-        program = &moonlight->sea->programs[0];
+        program = &moonlight->sea->programs[moonlight->has_clouds ? SEA_CLOUDED : 0];
         spectral_sea_set(moonlight->sea, view, program);
     }
     if (kind == SKY_KIND_GROUND) {
@@ -254,6 +288,10 @@ static trl_result draw_kind(struct moonlight *moonlight, const struct sky_pixels
     }
     set_colours(moonlight, program, view);
     spectral_maps_bind(&moonlight->maps, program);
+    if (moonlight->has_clouds && kind != SKY_KIND_AIR) {
+        gpu_program_set_texture(program, "u_cloud_shade", view->cloud_shade);
+        sky_pixels_set_deck(program, view);
+    }
     return sky_pixels_draw(pixels, program, kind, view);
 }
 
@@ -263,16 +301,13 @@ trl_result moonlight_draw(struct moonlight *moonlight, const struct sky_pixels *
     if (!view->moon.is_there) {
         return TRL_OK;
     }
-    struct camera camera = *view->camera;
-    struct sky_view moonlit = *view;
-    camera.sun_direction = view->moon.sight.direction;
-    moonlit.camera = &camera;
-    moonlit.is_added = true;
-    trl_result result = draw_kind(moonlight, pixels, SKY_KIND_AIR, &moonlit);
+    struct moonlit moonlit;
+    light_by_moon(view, &moonlit);
+    trl_result result = draw_kind(moonlight, pixels, SKY_KIND_AIR, &moonlit.view);
     if (result == TRL_OK) {
-        result = draw_kind(moonlight, pixels, SKY_KIND_GROUND, &moonlit);
+        result = draw_kind(moonlight, pixels, SKY_KIND_GROUND, &moonlit.view);
     }
     return result == TRL_OK && sea_water_is_seen(&moonlight->sea->water, view)
-               ? draw_kind(moonlight, pixels, SKY_KIND_SEA, &moonlit)
+               ? draw_kind(moonlight, pixels, SKY_KIND_SEA, &moonlit.view)
                : result;
 }

@@ -17,7 +17,8 @@ struct moonlight {
     size_t body_count;
     struct body_desc bodies[CAMERA_MAX_BODIES];
     struct spectral_maps maps; // with the atmosphere of others; made when first asked for
-    bool has_programs;         // the same
+    bool has_programs;         // the same, with those for:
+    bool has_clouds;
     struct gpu_program air, ground_bare, ground_surface;
 };
 
@@ -38,6 +39,11 @@ struct sky_moon moonlight_find(const struct moonlight *moonlight,
 TRL_MUST_USE trl_result moonlight_prepare(struct moonlight *moonlight,
                                           const struct spectral_maps *star,
                                           const struct sky_view *view);
+
+// The uniforms of sky/ray.glsl, and of sky/spectral/air.glsl with light on ground and clouds, for
+// programs with the define MOON.
+void moonlight_bind(const struct moonlight *moonlight, const struct sky_pixels *pixels,
+                    const struct sky_view *view, struct gpu_program *program);
 
 // Adds its light to the target.
 TRL_MUST_USE trl_result moonlight_draw(struct moonlight *moonlight, const struct sky_pixels *pixels,

@@ -73,12 +73,15 @@ struct sky_view {
     struct sky_surface surface;
     struct sky_spheres spheres;
 
-    const struct gpu_texture *cloud_shade; // RG32F, see cloud/march.h; NULL: no clouds
-    const struct gpu_texture *cloud_deck;  // as cloud/deck.h makes it, where there is cloud_shade
-    const float *cloud_deck_place;         // and its u_deck_map
-    double cloud_top_m;                    // altitude of the highest
-    const struct gpu_texture *hidden;      // by clouds, as gpu/hide.h has it; NULL: nothing is
-    struct sky_shadow shadow;              // of the body that is main, else of the star
+    const struct gpu_texture *cloud_shade; // RG32F, see cloud/shade.h: of the body that is
+                                           // main, else of the star; NULL: no clouds
+    // As cloud/deck.h makes it, where there is cloud_shade: toward the star until clouds are drawn,
+    // then toward the moon, if there is one.
+    const struct gpu_texture *cloud_deck;
+    const float *cloud_deck_place;    // and its u_deck_map
+    double cloud_top_m;               // altitude of the highest
+    const struct gpu_texture *hidden; // by clouds, as gpu/hide.h has it; NULL: nothing is
+    struct sky_shadow shadow;         // of the body that is main, else of the star
     struct sky_moon moon;
     bool is_added; // to what the target holds
     trl_air air;
@@ -92,11 +95,15 @@ struct sky_view {
 struct sky_air {
     int peaked_count;
     const struct bands *bands;
-    bool has_march; // with the define MARCH
+    bool has_march;   // with the define MARCH
+    bool has_eclipse; // with the define ECLIPSE
     // Sets what sky/ray.glsl needs, with `whole` also the maps of the air and of light on the
     // ground.
     void (*bind)(const void *self, const struct sky_view *view, bool whole,
                  struct gpu_program *program);
+    // The same, whole, for light of the view's moon, which is added, with the define MOON in place
+    // of those above. NULL: there is none.
+    void (*bind_moon)(const void *self, const struct sky_view *view, struct gpu_program *program);
     const void *self;
 };
 

@@ -278,7 +278,8 @@ static trl_result spectral_prepare(void *self, const struct sky_view *view)
                                       find_sea_shades(&shades));
     }
     if (result == TRL_OK && view->moon.is_there) {
-        result = spectral_sea_prepare(&sky->sea, &sky->maps, view, view->moon.sight.direction, 0);
+        result = spectral_sea_prepare(&sky->sea, &sky->maps, view, view->moon.sight.direction,
+                                      shades.has_clouds ? SEA_CLOUDED : 0);
     }
     return result == TRL_OK ? moonlight_prepare(&sky->moonlight, &sky->maps, view) : result;
 }
@@ -349,18 +350,31 @@ static void bind_air(const void *self, const struct sky_view *view, bool whole,
         sky_set_primaries(program, (const double[]){1, 1, 1});
         spectral_maps_bind(&sky->maps, program);
     }
-    if (whole && find_shades(sky, view).has_march) {
+    const struct shades shades = find_shades(sky, view);
+    if (whole && shades.has_march) {
         sky_march_bind(&sky->march, program);
     }
+    if (whole && shades.has_eclipse) {
+        sky_eclipse_set(&sky->pixels, &sky->eclipse, view->camera, program);
+    }
+}
+
+static void bind_moon(const void *self, const struct sky_view *view, struct gpu_program *program)
+{
+    const struct spectral *sky = self;
+    moonlight_bind(&sky->moonlight, &sky->pixels, view, program);
 }
 
 static struct sky_air spectral_get_air(const void *self, const struct sky_view *view)
 {
     const struct spectral *sky = self;
+    const struct shades shades = find_shades(sky, view);
     return (struct sky_air){.peaked_count = sky->maps.atmosphere->peaked.count,
                             .bands = &sky->maps.atmosphere->bands,
-                            .has_march = find_shades(sky, view).has_march,
+                            .has_march = shades.has_march,
+                            .has_eclipse = shades.has_eclipse,
                             .bind = bind_air,
+                            .bind_moon = view->moon.is_there ? bind_moon : NULL,
                             .self = self};
 }
 

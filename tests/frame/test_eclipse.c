@@ -66,10 +66,11 @@ static const char WITH_MOON[] =
     ", \"bodies\": [{\"name\": \"Moon\", \"radius_m\": 1737400, \"distance_m\": 363300000,"
     " \"geometric_albedo\": 0}], \"views\": {\"view\": {\"camera\": {\"latitude_deg\": 0,"
     " \"longitude_deg\": 0, \"altitude_m\": %s, \"pitch_deg\": %s, \"vertical_fov_deg\": 60},"
-    " \"sun\": {\"elevation_deg\": 50, \"azimuth_deg\": 90}, \"bodies\": {%s}}}}";
+    " \"sun\": {\"elevation_deg\": 50, \"azimuth_deg\": 90}, \"bodies\": {%s}}}%s}";
 
 struct place {
     const char *altitude_m, *pitch_deg, *moon;
+    bool has_clouds;
 };
 
 static void draw(const struct fixture *f, const struct place *place, float *rgba)
@@ -85,7 +86,10 @@ static void draw(const struct fixture *f, const struct place *place, float *rgba
     char text[4096];
     const int begun = snprintf(text, sizeof text, "%s", sphere);
     snprintf(text + begun, sizeof text - (size_t)begun, WITH_MOON, place->altitude_m,
-             place->pitch_deg, place->moon);
+             place->pitch_deg, place->moon,
+             place->has_clouds
+                 ? ", \"clouds\": {\"layers\": [{\"type\": \"stratus\", \"cover\": 1}]}"
+                 : "");
     trl_scene *scene = NULL;
     assert_int_equal(trl_scene_parse(f->ctx, text, strlen(text), "moon", "/nonexistent", &scene),
                      TRL_OK);
@@ -118,15 +122,20 @@ static void a_moon_elsewhere_changes_no_bit_and_before_the_star_makes_night(void
 {
     static float none[4 * SIDE * SIDE];
     static float moon[4 * SIDE * SIDE];
-    // From the ground within the umbra; from high above all of the penumbra.
+    // From the ground within the umbra; from high above all of the penumbra; within the umbra from
+    // above a deck of clouds, and from below it.
     static const struct place places[][2] = {
-        {{"2", "0", "\"Moon\": {\"elevation_deg\": -50, \"azimuth_deg\": 270}"},
-         {"2", "0", "\"Moon\": {\"offset_from_sun_deg\": [0, 0]}"}},
-        {{"20000000", "-90", "\"Moon\": {\"latitude_deg\": 0, \"longitude_deg\": -140}"},
-         {"20000000", "-90", "\"Moon\": {\"latitude_deg\": 0, \"longitude_deg\": 40}"}},
+        {{"2", "0", "\"Moon\": {\"elevation_deg\": -50, \"azimuth_deg\": 270}", false},
+         {"2", "0", "\"Moon\": {\"offset_from_sun_deg\": [0, 0]}", false}},
+        {{"20000000", "-90", "\"Moon\": {\"latitude_deg\": 0, \"longitude_deg\": -140}", false},
+         {"20000000", "-90", "\"Moon\": {\"latitude_deg\": 0, \"longitude_deg\": 40}", false}},
+        {{"4000", "-60", "\"Moon\": {\"elevation_deg\": -50, \"azimuth_deg\": 270}", true},
+         {"4000", "-60", "\"Moon\": {\"offset_from_sun_deg\": [0, 0]}", true}},
+        {{"2", "60", "\"Moon\": {\"elevation_deg\": -50, \"azimuth_deg\": 270}", true},
+         {"2", "60", "\"Moon\": {\"offset_from_sun_deg\": [0, 0]}", true}},
     };
-    static const double most[] = {0.01, 0.99};
-    for (int i = 0; i < 2; i++) {
+    static const double most[] = {0.01, 0.99, 0.01, 0.01};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         struct place place = places[i][0];
         draw(*state, &place, moon);
         place.moon = "";

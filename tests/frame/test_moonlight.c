@@ -23,11 +23,15 @@ struct setup {
     struct fixture *f;
     struct planet flat;     // the star has no colour
     struct planet reddened; // it is as red as the second body
+    struct planet cloudy;   // the first, with clouds
 };
 
 static const char RED[] = "[[450, 0.1], [650, 0.137]]";
 
-static trl_result make_planet(struct fixture *f, const char *star, struct planet *out)
+static const char CLOUDS[] = ", \"clouds\": {\"layers\": [{\"cover\": 0.5}]}";
+
+static trl_result make_planet(struct fixture *f, const char *star, const char *clouds,
+                              struct planet *out)
 {
     char text[2048];
     snprintf(text, sizeof text,
@@ -46,12 +50,13 @@ static trl_result make_planet(struct fixture *f, const char *star, struct planet
              "  {\"name\": \"Grey\", \"radius_m\": %.10g, \"distance_m\": %.10g,"
              "   \"geometric_albedo\": 0.1},"
              "  {\"name\": \"Red\", \"radius_m\": %.10g, \"distance_m\": %.10g,"
-             "   \"geometric_albedo\": %s}]}",
-             star, RADIUS_M, DISTANCE_M, RADIUS_M, DISTANCE_M, RED);
+             "   \"geometric_albedo\": %s}]%s}",
+             star, RADIUS_M, DISTANCE_M, RADIUS_M, DISTANCE_M, RED, clouds);
     assert_int_equal(
         trl_scene_parse(f->ctx, text, strlen(text), "planet", "/nonexistent", &out->scene), TRL_OK);
     trl_renderer_desc desc = trl_renderer_desc_default();
     desc.scene = out->scene;
+    desc.air = TRL_AIR_TABLE; // only the star's has shadows
     const trl_result result = trl_renderer_create(f->ctx, &desc, &out->renderer);
     fixture_skip_without_gl(f, result);
     return result;
@@ -66,8 +71,9 @@ static int set_up(void **state)
         return 1;
     }
     s->f = f;
-    return make_planet(s->f, "1", &s->flat) != TRL_OK ||
-           make_planet(s->f, RED, &s->reddened) != TRL_OK;
+    return make_planet(s->f, "1", "", &s->flat) != TRL_OK ||
+           make_planet(s->f, RED, "", &s->reddened) != TRL_OK ||
+           make_planet(s->f, "1", CLOUDS, &s->cloudy) != TRL_OK;
 }
 
 static void finish(struct planet *planet)
@@ -81,6 +87,7 @@ static int tear_down(void **state)
     struct setup *s = *state;
     finish(&s->flat);
     finish(&s->reddened);
+    finish(&s->cloudy);
     void *f = s->f;
     free(s);
     return fixture_tear_down(&f);
@@ -176,6 +183,24 @@ static void moonlight_is_sunlight_scaled(void **state)
     }
 }
 
+// From below and from above: clouds, and their shade on the ground.
+static void moonlit_clouds_are_sunlit_ones_scaled(void **state)
+{
+    const struct setup *s = *state;
+    static double got[VALUES], wanted[VALUES], clear[VALUES];
+    const double altitudes_m[] = {10, 4000};
+    for (int i = 0; i < 2; i++) {
+        trl_view view = make_view(-70, altitudes_m[i]);
+        view.pitch_rad = i == 0 ? 0.1 : -0.4;
+        place_body(&view, GREY, 50);
+        draw(&s->cloudy, &view, got);
+        draw(&s->flat, &view, clear);
+        expect_moonlit(&s->cloudy, &view, 0.1 * find_share(50, -70), wanted);
+        assert_true(compare(got, wanted).largest < 1e-3);
+        assert_true(compare(clear, wanted).mean > 0.2); // or there are none
+    }
+}
+
 static void light_of_star_and_body_add_up(void **state)
 {
     const struct setup *s = *state;
@@ -224,6 +249,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(moonlight_is_sunlight_scaled),
+        cmocka_unit_test(moonlit_clouds_are_sunlit_ones_scaled),
         cmocka_unit_test(light_of_star_and_body_add_up),
         cmocka_unit_test(by_day_moonlight_is_left_out),
         cmocka_unit_test(moonlight_has_the_colour_of_the_body),
