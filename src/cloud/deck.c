@@ -27,10 +27,7 @@ static trl_result make_map(struct cloud_deck *deck)
     desc.format = GPU_FORMAT_RGBA32F;
     desc.filter = GPU_FILTER_LINEAR;
     desc.width = desc.height = SIDE;
-    const struct gpu_target_desc target = {
-        .label = desc.label, .color_count = 1, .colors[0].texture = &deck->map};
-    const trl_result result = gpu_texture_init(deck->gpu, &desc, &deck->map);
-    return result == TRL_OK ? gpu_target_init(deck->gpu, &target, &deck->target) : result;
+    return gpu_target_init_texture(deck->gpu, &desc, NULL, &deck->map, &deck->target);
 }
 
 // Of all layers, by their optical depth: the altitude of their middle and half their height.

@@ -191,22 +191,13 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     return result;
 }
 
-static trl_result make_target(struct cloud_march *m, struct gpu_texture_desc *desc,
-                              struct gpu_texture *texture, struct gpu_target *target)
-{
-    const struct gpu_target_desc colors = {
-        .label = desc->label, .color_count = 1, .colors[0].texture = texture};
-    const trl_result result = gpu_texture_init(m->gpu, desc, texture);
-    return result == TRL_OK ? gpu_target_init(m->gpu, &colors, target) : result;
-}
-
 // Fours of rays: joined, with where they end, and sharpened.
 static trl_result make_joined(struct cloud_march *m, struct gpu_texture_desc desc)
 {
     desc.label = "clouds joined";
     trl_result result = gpu_texture_init(m->gpu, &desc, &m->joined);
     if (result == TRL_OK) {
-        result = make_target(m, &desc, &m->sharpened, &m->sharpened_target);
+        result = gpu_target_init_texture(m->gpu, &desc, NULL, &m->sharpened, &m->sharpened_target);
     }
     if (result == TRL_OK) {
         desc.format = GPU_FORMAT_R32F;
@@ -233,7 +224,7 @@ static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *pi
     trl_result result = cloud_shade_resize(&m->shade, picture->width, picture->height);
     for (int i = 0; i < 2 && result == TRL_OK; i++) {
         desc.label = "clouds";
-        result = make_target(m, &desc, &m->clouds[i], &m->clouds_target[i]);
+        result = gpu_target_init_texture(m->gpu, &desc, NULL, &m->clouds[i], &m->clouds_target[i]);
     }
     if (result == TRL_OK) {
         result = make_joined(m, desc);
@@ -243,7 +234,7 @@ static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *pi
     desc.width = (picture->width + GPU_HIDE_SQUARE - 1) / GPU_HIDE_SQUARE;
     desc.height = (picture->height + GPU_HIDE_SQUARE - 1) / GPU_HIDE_SQUARE;
     if (result == TRL_OK) {
-        result = make_target(m, &desc, &m->hidden, &m->hidden_target);
+        result = gpu_target_init_texture(m->gpu, &desc, NULL, &m->hidden, &m->hidden_target);
     }
     if (result != TRL_OK) {
         finish_targets(m);

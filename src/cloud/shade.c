@@ -51,21 +51,14 @@ trl_result cloud_shade_resize(struct cloud_shade *shade, uint32_t width, uint32_
     struct gpu_texture_desc desc = gpu_texture_desc_default();
     desc.label = "shade of clouds";
     desc.filter = GPU_FILTER_NEAREST;
-    desc.format = GPU_FORMAT_RG32F;
+    desc.format = GPU_FORMAT_DEPTH32F;
     desc.width = (width + 1) / 2;
     desc.height = (height + 1) / 2;
-    trl_result result = gpu_texture_init(shade->gpu, &desc, &shade->left);
-    desc.format = GPU_FORMAT_DEPTH32F;
-    result = result == TRL_OK ? gpu_texture_init(shade->gpu, &desc, &shade->depth) : result;
-    const struct gpu_target_desc target = {.label = desc.label,
-                                           .color_count = 1,
-                                           .colors[0].texture = &shade->left,
-                                           .depth.texture = &shade->depth};
-    result = result == TRL_OK ? gpu_target_init(shade->gpu, &target, &shade->target) : result;
-    if (result != TRL_OK) {
-        finish_target(shade);
-    }
-    return result;
+    trl_result result = gpu_texture_init(shade->gpu, &desc, &shade->depth);
+    desc.format = GPU_FORMAT_RG32F;
+    return result == TRL_OK ? gpu_target_init_texture(shade->gpu, &desc, &shade->depth,
+                                                      &shade->left, &shade->target)
+                            : result;
 }
 
 trl_result cloud_shade_draw(struct cloud_shade *shade)

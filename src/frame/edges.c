@@ -59,15 +59,7 @@ trl_result edges_resize(struct edges *edges, const struct gpu_texture *depth)
     desc.filter = GPU_FILTER_NEAREST;
     desc.width = depth->width;
     desc.height = depth->height;
-    trl_result result = gpu_texture_init(edges->gpu, &desc, &edges->blended);
-    const struct gpu_target_desc target = {.label = "edges",
-                                           .color_count = 1,
-                                           .colors[0].texture = &edges->blended,
-                                           .depth.texture = depth};
-    if (result == TRL_OK) {
-        result = gpu_target_init(edges->gpu, &target, &edges->target);
-    }
-    return result;
+    return gpu_target_init_texture(edges->gpu, &desc, depth, &edges->blended, &edges->target);
 }
 
 static void set_ground(const struct edges_source *source, struct gpu_program *program)

@@ -9,18 +9,6 @@
 // frame rate.
 static const double ADAPTATION_TIME_S = 0.35;
 
-static trl_result make_target(struct gpu *gpu, const struct gpu_texture_desc *desc,
-                              struct gpu_texture *texture, struct gpu_target *target)
-{
-    trl_result result = gpu_texture_init(gpu, desc, texture);
-    if (result == TRL_OK) {
-        const struct gpu_target_desc target_desc = {
-            .label = desc->label, .color_count = 1, .colors = {{.texture = texture}}};
-        result = gpu_target_init(gpu, &target_desc, target);
-    }
-    return result;
-}
-
 static trl_result make_targets(struct exposure *exposure)
 {
     struct gpu_texture_desc desc = gpu_texture_desc_default();
@@ -28,8 +16,8 @@ static trl_result make_targets(struct exposure *exposure)
     desc.filter = GPU_FILTER_NEAREST;
     desc.label = "exposure";
     for (int i = 0; i < 2; i++) {
-        const trl_result result =
-            make_target(exposure->gpu, &desc, &exposure->values[i], &exposure->value_targets[i]);
+        const trl_result result = gpu_target_init_texture(
+            exposure->gpu, &desc, NULL, &exposure->values[i], &exposure->value_targets[i]);
         if (result != TRL_OK) {
             return result;
         }
@@ -37,7 +25,8 @@ static trl_result make_targets(struct exposure *exposure)
     desc.width = METER_CELLS_X;
     desc.height = METER_CELLS_Y;
     desc.label = "meter cells";
-    return make_target(exposure->gpu, &desc, &exposure->cells, &exposure->cells_target);
+    return gpu_target_init_texture(exposure->gpu, &desc, NULL, &exposure->cells,
+                                   &exposure->cells_target);
 }
 
 static trl_result make_programs(struct exposure *exposure)

@@ -91,6 +91,25 @@ trl_result gpu_target_init(struct gpu *gpu, const struct gpu_target_desc *desc,
     return result;
 }
 
+trl_result gpu_target_init_texture(struct gpu *gpu, const struct gpu_texture_desc *desc,
+                                   const struct gpu_texture *depth, struct gpu_texture *texture,
+                                   struct gpu_target *out)
+{
+    *out = (struct gpu_target){0};
+    const struct gpu_target_desc target = {.label = desc->label,
+                                           .color_count = 1,
+                                           .colors[0].texture = texture,
+                                           .depth.texture = depth};
+    trl_result result = gpu_texture_init(gpu, desc, texture);
+    if (result == TRL_OK) {
+        result = gpu_target_init(gpu, &target, out);
+    }
+    if (result != TRL_OK) {
+        gpu_texture_finish(texture);
+    }
+    return result;
+}
+
 void gpu_target_finish(struct gpu_target *target)
 {
     if (target->name != 0) {

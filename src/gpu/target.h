@@ -43,6 +43,14 @@ TRL_MUST_USE trl_result gpu_target_init(struct gpu *gpu, const struct gpu_target
                                         struct gpu_target *out);
 void gpu_target_finish(struct gpu_target *target);
 
+// The usual case: a texture that is drawn to and looked at later, with a depth of its size or NULL.
+// Both are zeroed on failure.
+TRL_MUST_USE trl_result gpu_target_init_texture(struct gpu *gpu,
+                                                const struct gpu_texture_desc *desc,
+                                                const struct gpu_texture *depth,
+                                                struct gpu_texture *texture,
+                                                struct gpu_target *out);
+
 // The framebuffer of the window of a wrapped context, at its present size. Needs no finish.
 struct gpu_target gpu_target_window(struct gpu *gpu, uint32_t width, uint32_t height);
 

@@ -44,18 +44,7 @@ trl_result facets_resize(struct facets *facets, const struct gpu_texture *depth)
     desc.filter = GPU_FILTER_NEAREST;
     desc.width = depth->width;
     desc.height = depth->height;
-    trl_result result = gpu_texture_init(facets->gpu, &desc, &facets->texture);
-    const struct gpu_target_desc target = {.label = "facets",
-                                           .color_count = 1,
-                                           .colors[0].texture = &facets->texture,
-                                           .depth.texture = depth};
-    if (result == TRL_OK) {
-        result = gpu_target_init(facets->gpu, &target, &facets->target);
-    }
-    if (result != TRL_OK) {
-        finish_target(facets);
-    }
-    return result;
+    return gpu_target_init_texture(facets->gpu, &desc, depth, &facets->texture, &facets->target);
 }
 
 // Where waves are lower, they break in as much less water.

@@ -46,16 +46,7 @@ trl_result terrain_open_sea_resize(struct terrain_open_sea *open, const struct g
     desc.filter = GPU_FILTER_NEAREST;
     desc.width = (depth->width + GPU_HIDE_SQUARE - 1) / GPU_HIDE_SQUARE;
     desc.height = (depth->height + GPU_HIDE_SQUARE - 1) / GPU_HIDE_SQUARE;
-    trl_result result = gpu_texture_init(open->gpu, &desc, &open->squares);
-    const struct gpu_target_desc target = {
-        .label = "open sea", .color_count = 1, .colors[0].texture = &open->squares};
-    if (result == TRL_OK) {
-        result = gpu_target_init(open->gpu, &target, &open->target);
-    }
-    if (result != TRL_OK) {
-        finish_squares(open);
-    }
-    return result;
+    return gpu_target_init_texture(open->gpu, &desc, NULL, &open->squares, &open->target);
 }
 
 // That of the coarsest heights and masks in view, m; 0: there is bed among them, or no mask, or

@@ -22,15 +22,6 @@ static const float PIXEL_SHARE = 0.1f;
 // zeta: rays below this part of the tangent meet the primary sphere only.
 static const float BLEND_START = 0.5f;
 
-static trl_result make_map(struct gpu *gpu, const struct gpu_texture_desc *desc,
-                           struct projective_map *out)
-{
-    const trl_result result = gpu_texture_init(gpu, desc, &out->texture);
-    const struct gpu_target_desc target = {
-        .label = desc->label, .color_count = 1, .colors = {{.texture = &out->texture}}};
-    return result == TRL_OK ? gpu_target_init(gpu, &target, &out->target) : result;
-}
-
 static trl_result make_maps(struct projective_rows *rows)
 {
     const struct {
@@ -51,7 +42,8 @@ static trl_result make_maps(struct projective_rows *rows)
         desc.filter = GPU_FILTER_NEAREST;
         desc.width = shapes[i].width;
         desc.height = shapes[i].height;
-        result = make_map(rows->gpu, &desc, &rows->maps[i]);
+        result = gpu_target_init_texture(rows->gpu, &desc, NULL, &rows->maps[i].texture,
+                                         &rows->maps[i].target);
     }
     return result;
 }
