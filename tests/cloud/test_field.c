@@ -8,11 +8,10 @@
 #include <cmocka.h>
 
 #include "cloud/field.h"
+#include "map.h"
 #include "reference/random.h"
 #include "shared/cloud.glsl"
 
-#include <gdal.h>
-#include <ogr_srs_api.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -410,25 +409,6 @@ static void keep_last(void *user, trl_log_level level, trl_log_item item, const 
     }
 }
 
-// Of the whole globe, all of it 0, which may stand for no data.
-static void write_map(const char *path, int width, int height, bool is_void)
-{
-    GDALAllRegister();
-    const GDALDatasetH file =
-        GDALCreate(GDALGetDriverByName("GTiff"), path, width, height, 1, GDT_Byte, NULL);
-    assert_non_null(file);
-    double transform[6] = {-180, 360.0 / width, 0, 90, 0, -180.0 / height};
-    assert_int_equal(GDALSetGeoTransform(file, transform), CE_None);
-    const OGRSpatialReferenceH srs = OSRNewSpatialReference(NULL);
-    assert_int_equal(OSRImportFromEPSG(srs, 4326), OGRERR_NONE);
-    assert_int_equal(GDALSetSpatialRef(file, srs), CE_None);
-    OSRDestroySpatialReference(srs);
-    if (is_void) {
-        assert_int_equal(GDALSetRasterNoDataValue(GDALGetRasterBand(file, 1), 0), CE_None);
-    }
-    GDALClose(file);
-}
-
 // As a raster of the surface: told with its key, and the planet is drawn.
 static void a_map_that_is_no_good_is_left_out(void **state)
 {
@@ -461,7 +441,7 @@ static void a_map_that_is_no_good_is_left_out(void **state)
                                        "no pixel of it has data", ""};
     for (int i = 0; i < 4; i++) {
         said[0] = 0;
-        write_map(path, SIZES[i][0], SIZES[i][1], i == 2);
+        write_map(path, &(struct map_desc){SIZES[i][0], SIZES[i][1], 1, NULL, i == 2});
         assert_int_equal(cloud_field_init(ctx, &clouds, RADIUS_M, &field), TRL_OK);
         assert_int_equal(field.map_count, i == 3);
         assert_non_null(strstr(said, WHY[i]));

@@ -4,10 +4,9 @@
 #include "../frame/fixture.h"
 
 #include "cloud/march.h"
+#include "map.h"
 
-#include <gdal.h>
 #include <math.h>
-#include <ogr_srs_api.h>
 #include <unistd.h>
 
 static const double RADIUS_M = 6371000;
@@ -159,28 +158,13 @@ static void the_gpu_s_field_is_the_cpu_s(void **state)
 static void write_bands(const char *path)
 {
     enum { WIDE = 64, HIGH = 32, BANDS = 2 };
-    GDALAllRegister();
-    const GDALDatasetH file =
-        GDALCreate(GDALGetDriverByName("GTiff"), path, WIDE, HIGH, BANDS, GDT_Byte, NULL);
-    assert_non_null(file);
-    double transform[6] = {-180, 360.0 / WIDE, 0, 90, 0, -180.0 / HIGH};
-    assert_int_equal(GDALSetGeoTransform(file, transform), CE_None);
-    const OGRSpatialReferenceH srs = OSRNewSpatialReference(NULL);
-    assert_int_equal(OSRImportFromEPSG(srs, 4326), OGRERR_NONE);
-    assert_int_equal(GDALSetSpatialRef(file, srs), CE_None);
-    OSRDestroySpatialReference(srs);
     static uint8_t rows[BANDS][WIDE * HIGH];
     for (int i = 0; i < WIDE * HIGH; i++) {
         const double longitude = (i % WIDE + 0.5) * 360 / WIDE - 180;
         rows[0][i] = longitude < EAST_DEG ? 255 : 0;
         rows[1][i] = 255 - rows[0][i];
     }
-    for (int band = 0; band < BANDS; band++) {
-        assert_int_equal(GDALRasterIO(GDALGetRasterBand(file, band + 1), GF_Write, 0, 0, WIDE, HIGH,
-                                      rows[band], WIDE, HIGH, GDT_Byte, 0, 0),
-                         CE_None);
-    }
-    GDALClose(file);
+    write_map(path, &(struct map_desc){WIDE, HIGH, BANDS, rows[0], false});
 }
 
 static void bands_of_a_map_are_of_the_layers(void **state)
