@@ -180,7 +180,8 @@ trl_result bench_run_clouds(const struct bench_job *job)
     bench_note(job->table,
                "Sun samples: of each lit place, with the star at 60 and at 5 degrees, where the "
                "way to the layer's top is long.");
-    bench_note(job->table, "Peak memory is that of a process which makes a renderer and draws its "
-                           "first picture, with the driver's if that is a software rasteriser.");
+    bench_note(job->table,
+               "Peak memory is that of this process while it makes a renderer and draws "
+               "its first picture, with the driver's if that is a software rasteriser.");
     return result;
 }

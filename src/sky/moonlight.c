@@ -229,8 +229,9 @@ static void find_factors(const struct atmosphere *a, const lanes *reflected, dou
     }
 }
 
-static void set_colours(const struct moonlight *moonlight, struct gpu_program *program,
-                        const struct sky_view *view)
+// Colours and maps; `view` as if the moon were the star.
+static void set_light(const struct moonlight *moonlight, struct gpu_program *program,
+                      const struct sky_view *view)
 {
     const struct atmosphere *a = moonlight->maps.atmosphere;
     const struct body_desc *body = &moonlight->bodies[view->moon.index];
@@ -248,6 +249,7 @@ static void set_colours(const struct moonlight *moonlight, struct gpu_program *p
     sky_set_bands(program, &bands, a->optics, 0);
     sky_set_primaries(program, factors);
     gpu_program_set_float(program, "u_shadowed", view->moon.is_main ? 1 : 0);
+    spectral_maps_bind(&moonlight->maps, program);
 }
 
 // The view as if the moon were the star.
@@ -271,8 +273,7 @@ void moonlight_bind(const struct moonlight *moonlight, const struct sky_pixels *
     struct moonlit moonlit;
     light_by_moon(view, &moonlit);
     sky_pixels_set_view(pixels, program, &moonlit.view);
-    set_colours(moonlight, program, &moonlit.view);
-    spectral_maps_bind(&moonlight->maps, program);
+    set_light(moonlight, program, &moonlit.view);
 }
 
 static trl_result draw_kind(struct moonlight *moonlight, const struct sky_pixels *pixels,
@@ -286,8 +287,7 @@ static trl_result draw_kind(struct moonlight *moonlight, const struct sky_pixels
     if (kind == SKY_KIND_GROUND) {
         program = sky_view_is_bare(view) ? &moonlight->ground_bare : &moonlight->ground_surface;
     }
-    set_colours(moonlight, program, view);
-    spectral_maps_bind(&moonlight->maps, program);
+    set_light(moonlight, program, view);
     if (moonlight->has_clouds && kind != SKY_KIND_AIR) {
         gpu_program_set_texture(program, "u_cloud_shade", view->cloud_shade);
         sky_pixels_set_deck(program, view);
