@@ -47,11 +47,13 @@ const float LEAST_SLICE = 16.0;   // texels, but no shorter
 const float STEPS = 16.0;         // in a slice
 const float NEAR_STEPS = 24.0;    // in one that begins before NEAR, where surfaces are seen
 const float NEAR = 80.0;          // texels; from twice that it is STEPS
+const float MOST_STEPS = 96.0;    // in one whose steps else were longer than
+const float STEP_PIXELS = 10.0;   // are wide, and missed heads of clouds from row to row
 const float LEAST_STEP = 0.4;     // texels
 const float PART_STEPS = 12.0;    // at least, in all slices of a thick layer
 const float LEAST_STEPS = 6.0;    // in a slice of one that pixels do not resolve
 const int PLACES = 24;            // at most, in a slice, that are lit
-const int LOOKS = 60;             // at most, between those
+const int LOOKS = 120;            // at most, between those
 const int COVER_STEPS = 6;        // between looks at the fields of clouds
 const float OPAQUE = 0.04;        // what is behind counts as what is before
 const float STEP_DEPTH = 0.75;    // of cloud that is lit as one place, where nothing is before it
@@ -223,6 +225,7 @@ CloudPlaces places_at(Span span, float at)
 float find_step(Part part, float near, float slice_m, float texel, float width)
 {
     float steps = mix(NEAR_STEPS, STEPS, clamp(near / (NEAR * texel) - 1.0, 0.0, 1.0));
+    steps = clamp(GROWTH * near / (STEP_PIXELS * width), steps, MOST_STEPS);
     float step_m = min(GROWTH * near / steps, (part.to - part.from) / PART_STEPS);
     step_m = max(step_m, LEAST_STEP * texel);
     return max(step_m, min(4.0 * width, slice_m / LEAST_STEPS));
