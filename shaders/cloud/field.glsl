@@ -5,14 +5,12 @@
 #ifndef CLOUD_FIELD_GLSL
 #define CLOUD_FIELD_GLSL
 
+#include "cloud/parts.glsl"
 #include "shared/cloud.glsl"
 #include "sky/ray.glsl"
 
-const int CLOUD_MAX_LAYERS = 4;
 const float CLOUD_LEAST_COVER = 1.0e-4; // with less there is no cloud
 
-uniform int u_cloud_layers;
-uniform vec4 u_cloud_shell[CLOUD_MAX_LAYERS]; // base, top above the sphere; widest at; cover
 uniform vec4
     u_cloud_grain[CLOUD_MAX_LAYERS]; // tiles per m, extinction, weight of the finer noise, overlap
 uniform vec4 u_cloud_anchor[CLOUD_MAX_LAYERS];        // the eye in tiles, without whole ones

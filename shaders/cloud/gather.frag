@@ -6,15 +6,13 @@
 // rays end about where its own does.
 // validate: SURFACE
 
-#include "shared/cloud.glsl"
-#include "sky/ray.glsl"
+#include "cloud/ends.glsl"
 
 in vec2 v_uv;
 
-uniform vec2 u_picture; // pixels
-uniform vec3 u_grid;    // of the marched: first texel, each way; distance between them
+uniform vec3 u_grid; // of the marched: first texel, each way; distance between them
 uniform sampler2D u_fresh;
-uniform sampler2D u_distance; // of what is fresh, logarithm of m
+uniform sampler2D u_fresh_ends; // logarithms: how far what is seen is, ray_end
 uniform sampler2D u_past;
 uniform vec3 u_moved;        // the eye since the frame before, m
 uniform vec3 u_past_forward; // axes of that camera: a place there, over its depth, in [-1, 1]
@@ -22,27 +20,11 @@ uniform vec3 u_past_right;
 uniform vec3 u_past_up;
 uniform float u_is_still; // 1: nothing has moved since then
 
-#ifdef SURFACE
-uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
-#endif
-
 layout(location = 0) out vec4 out_clouds;
+layout(location = 1) out vec2 out_ends; // as u_fresh_ends
 
-const float SKY_M = 1.0e8;
 const float SLACK = 0.1;    // of the neighbours' range, that what is finer than they are may have
 const float FAR_OFF = 0.25; // of a distance, that it may be wrong between rays
-
-// Logarithm of the distance at which the ray of a marched or other texel ends.
-float find_end(ivec2 texel)
-{
-#ifdef SURFACE
-    ivec2 last = textureSize(u_position, 0) - 1;
-    vec4 position = texelFetch(u_position, min(2 * texel, last), 0);
-    return log(position.w > -1.0e8 ? length(position.xyz) : SKY_M);
-#else
-    return 0.0;
-#endif
-}
 
 // Between the texels of the past, at a place in them.
 vec4 look_back(vec2 at)
@@ -69,7 +51,7 @@ void main()
     ivec2 nearest = clamp((texel - offset + 1) / 2, ivec2(0), last);
     ivec2 first = (texel - offset + 2) / 2 - 1;
     vec2 part = vec2(texel - offset - 2 * first) * 0.5;
-    float own = find_end(texel);
+    float own = find_end(2 * texel);
     vec4 between = vec4(0.0);
     float distance_log = 0.0;
     float weights = 0.0;
@@ -77,9 +59,10 @@ void main()
         ivec2 corner = ivec2(n & 1, n >> 1);
         ivec2 at = clamp(first + corner, ivec2(0), last);
         vec2 near = mix(1.0 - part, part, vec2(corner));
-        float weight = (near.x * near.y + 1.0e-4) * cloud_alike(find_end(2 * at + offset), own);
+        vec2 ends = texelFetch(u_fresh_ends, at, 0).xy;
+        float weight = (near.x * near.y + 1.0e-4) * cloud_alike(ends.y, own);
         between += texelFetch(u_fresh, at, 0) * weight;
-        distance_log += texelFetch(u_distance, at, 0).x * weight;
+        distance_log += ends.x * weight;
         weights += weight;
     }
     between /= weights;
@@ -87,7 +70,7 @@ void main()
     vec4 most = between;
     for (int n = 0; n < 9; n++) {
         ivec2 at = clamp(nearest + ivec2(n % 3, n / 3) - 1, ivec2(0), last);
-        bool is_alike = cloud_alike(find_end(2 * at + offset), own) > 0.5;
+        bool is_alike = cloud_alike(texelFetch(u_fresh_ends, at, 0).y, own) > 0.5;
         vec4 fresh = is_alike ? texelFetch(u_fresh, at, 0) : between;
         least = min(least, fresh);
         most = max(most, fresh);
@@ -111,4 +94,5 @@ void main()
         all(equal((texel - offset) % 2, ivec2(0))) && all(greaterThanEqual(texel, offset));
     vec4 fresh = texelFetch(u_fresh, clamp((texel - offset) / 2, ivec2(0), last), 0);
     out_clouds = is_fresh ? fresh : (is_seen || u_is_still > 0.5) ? past : between;
+    out_ends = vec2(distance_log / weights, own);
 }

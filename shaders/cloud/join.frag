@@ -9,34 +9,29 @@
 // validate: SURFACE; FILTER
 // validate: SHARPEN
 
-#include "shared/cloud.glsl"
-#include "sky/ray.glsl"
+#include "cloud/ends.glsl"
 
 in vec2 v_uv;
 
 #ifdef SHARPEN
 uniform sampler2D u_joined;
-uniform sampler2D u_ends; // of each, logarithm of the distance at which its ray ends, m
+uniform sampler2D u_ends; // of each, y: logarithm of ray_end
 #else
 uniform sampler2D u_clouds;
+uniform sampler2D u_clouds_ends;
 #ifndef FILTER
 uniform sampler2D u_hidden; // of squares of pixels, see cloud/hidden.frag
 const int SQUARE = 4;       // GPU_HIDE_SQUARE
 uniform sampler2D u_joined; // sharpened
 uniform sampler2D u_ends;
-uniform float u_sharp;        // share of what was marched
-#endif
-#ifdef SURFACE
-uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, or below -1e8
+uniform float u_sharp; // share of what was marched
 #endif
 #endif
 
 layout(location = 0) out vec4 out_clouds;
 #ifdef FILTER
-layout(location = 1) out float out_end;
+layout(location = 1) out vec2 out_ends;
 #endif
-
-const float SKY_M = 1.0e8;
 
 #ifdef SHARPEN
 const float ALIKE = 0.9;   // of which all five are at least, to be sharpened
@@ -50,7 +45,7 @@ void main()
     ivec2 texel = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(u_joined, 0) - 1;
     vec4 joined = texelFetch(u_joined, texel, 0);
-    float own = texelFetch(u_ends, texel, 0).x;
+    float own = texelFetch(u_ends, texel, 0).y;
     vec4 least = joined;
     vec4 most = joined;
     vec4 around = vec4(0.0);
@@ -62,35 +57,14 @@ void main()
         least = min(least, there);
         most = max(most, there);
         around += 0.25 * there;
-        alike = min(alike, cloud_alike(texelFetch(u_ends, at, 0).x, own));
+        alike = min(alike, cloud_alike(texelFetch(u_ends, at, 0).y, own));
     }
     vec4 sharpened = clamp(joined + SHARPER * (joined - around), least, most);
     out_clouds = alike < ALIKE ? joined : sharpened;
 }
 #else
-// Logarithm of the distance at which the ray of a pixel ends.
-float find_end(ivec2 pixel)
-{
-#ifdef SURFACE
-    vec4 position = texelFetch(u_position, min(pixel, textureSize(u_position, 0) - 1), 0);
-    return log(position.w > -1.0e8 ? length(position.xyz) : SKY_M);
-#else
-    return 0.0;
-#endif
-}
-
-// Of marched rays, which stand at even pixels, or of fours of them, at odd ones.
-float end_at(ivec2 texel, bool is_marched)
-{
-#ifdef FILTER
-    return find_end(2 * texel);
-#else
-    return is_marched ? find_end(2 * texel) : texelFetch(u_ends, texel, 0).x;
-#endif
-}
-
 // Of four from the first on, by how near they are: `part` of the way to the next.
-vec4 join_four(sampler2D clouds, ivec2 first, vec2 part, float own, bool is_marched)
+vec4 join_four(sampler2D clouds, sampler2D ends, ivec2 first, vec2 part, float own)
 {
     ivec2 last = textureSize(clouds, 0) - 1;
     vec4 sum = vec4(0.0);
@@ -99,7 +73,7 @@ vec4 join_four(sampler2D clouds, ivec2 first, vec2 part, float own, bool is_marc
         ivec2 corner = ivec2(n & 1, n >> 1);
         ivec2 at = clamp(first + corner, ivec2(0), last);
         vec2 near = mix(1.0 - part, part, vec2(corner));
-        float weight = (near.x * near.y + 1.0e-4) * cloud_alike(end_at(at, is_marched), own);
+        float weight = (near.x * near.y + 1.0e-4) * cloud_alike(texelFetch(ends, at, 0).y, own);
         sum += texelFetch(clouds, at, 0) * weight;
         weights += weight;
     }
@@ -110,8 +84,9 @@ vec4 join_four(sampler2D clouds, ivec2 first, vec2 part, float own, bool is_marc
 void main()
 {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    out_end = find_end(2 * texel + 1);
-    out_clouds = join_four(u_clouds, texel, vec2(0.5), out_end, true);
+    float own = find_end(2 * texel + 1);
+    out_ends = vec2(0.0, own);
+    out_clouds = join_four(u_clouds, u_clouds_ends, texel, vec2(0.5), own);
 }
 #else
 void main()
@@ -123,12 +98,12 @@ void main()
     if (is_cloudy && u_sharp < 1.0) {
         ivec2 first = (pixel + 1) / 2 - 1;
         vec2 part = 0.5 * vec2(pixel - 2 * first - 1);
-        out_clouds += (1.0 - u_sharp) * join_four(u_joined, first, part, own, false);
+        out_clouds += (1.0 - u_sharp) * join_four(u_joined, u_ends, first, part, own);
     }
     if (is_cloudy && u_sharp > 0.0) {
         ivec2 first = pixel / 2;
         vec2 part = 0.5 * vec2(pixel - 2 * first);
-        out_clouds += u_sharp * join_four(u_clouds, first, part, own, true);
+        out_clouds += u_sharp * join_four(u_clouds, u_clouds_ends, first, part, own);
     }
 }
 #endif

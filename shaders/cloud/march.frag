@@ -22,6 +22,7 @@
 // validate: PEAKED_COUNT 1; SURFACE; MARCH
 
 #include "cloud/light.glsl"
+#include "cloud/parts.glsl"
 #include "cloud/weather.glsl"
 #include "sky/deck.glsl"
 #ifdef ECLIPSE
@@ -39,7 +40,7 @@ uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, o
 #endif
 
 layout(location = 0) out vec4 out_clouds;
-layout(location = 1) out float out_distance; // logarithm of the mean one of what is seen, m
+layout(location = 1) out vec2 out_ends; // cloud/rays.h
 
 const int SLICES = 16;            // at most, of a layer along a part of the ray
 const float GROWTH = 0.333;       // of the distance, as long as a slice is
@@ -62,53 +63,10 @@ const float SHORT = 0.3;          // of a usual step, the shortest
 const float STEEPEST = 10.0;      // texels in which noise hardly changes by more than 1
 const float LEAST_DEPTH = 1.0e-4; // of what counts as cloud
 
-struct Part {
-    float from, to; // m
-    int layer;
-};
-
-// Where a ray is below a height over the sphere: x and y; x > y: nowhere.
-vec2 ball(Ray ray, float height)
-{
-    float r = u_eye.x;
-    float along = r * ray.mu;
-    float pass = r * length(cross(u_eye_up, ray.direction));
-    float radius = u_planet.x + height;
-    bool outside = u_eye.w > 0.5;
-    float inside2 =
-        outside ? (radius - pass) * (radius + pass)
-                : along * along + (height - u_eye.y) * (2.0 * u_planet.x + u_eye.y + height);
-    float chord = sqrt(max(inside2, 0.0));
-    // The root nearer to 0 from the product of both, which is h^2 + 2 R h of the difference.
-    float product = (u_eye.y - height) * (2.0 * u_planet.x + u_eye.y + height);
-    float far = along > 0.0 ? -along - chord : -along + chord;
-    float near = product / (abs(far) > 1.0e-3 ? far : 1.0e-3);
-    return inside2 <= 0.0 ? vec2(1.0, -1.0) : vec2(min(near, far), max(near, far));
-}
-
-// The parts of a ray in a layer: before the sphere of its base, and beyond.
-Part part_of(Ray ray, int index, float end)
-{
-    Part part;
-    part.layer = index / 2;
-    vec2 top = ball(ray, u_cloud_shell[part.layer].y);
-    vec2 base = ball(ray, u_cloud_shell[part.layer].x);
-    bool meets_base = base.x < base.y;
-    bool is_second = index % 2 == 1;
-    part.from = is_second ? base.y : top.x;
-    part.to = is_second || !meets_base ? top.y : base.x;
-    part.from = max(part.from, 0.0);
-    part.to = min(part.to, end);
-    if (top.x > top.y || (is_second && !meets_base)) {
-        part.to = part.from;
-    }
-    return part;
-}
-
 // The nearest part that begins at `here` or beyond; an empty one: there is none.
 Part next_part(Ray ray, float here, float end)
 {
-    Part next = Part(1.0e30, 1.0e30, 0);
+    Part next = Part(1.0e30, 1.0e30, 0, false);
     int k = 0;
     do {
         Part part = part_of(ray, k, end);
@@ -118,7 +76,7 @@ Part next_part(Ray ray, float here, float end)
         k++;
     } while (k < 2 * u_cloud_layers);
     if (next.from > 0.9e30) {
-        next = Part(0.0, 0.0, 0);
+        next = Part(0.0, 0.0, 0, false);
     }
     return next;
 }
@@ -393,11 +351,11 @@ void main()
         part = next_part(ray, part.to, end);
     } while (part.to > part.from && left >= OPAQUE);
     float empty_m = first_m > 0.0 ? first_m : min(end, 1.0e7);
-    out_distance = log(left < 0.99 ? max(distances_m / (1.0 - left), 1.0) : empty_m);
+    float seen_m = left < 0.99 ? max(distances_m / (1.0 - left), 1.0) : empty_m;
     // What is left of a cloud that is all but opaque is like the rest.
     float scale = left < OPAQUE ? 1.0 / (1.0 - left) : 1.0;
     left = left < OPAQUE ? 0.0 : left;
     vec4 joined = join_radiance(bands * scale, air * scale);
     out_clouds = vec4(joined.rgb, ALPHA * (1.0 - left));
-    out_distance *= ALPHA;
+    out_ends = ALPHA * vec2(log(seen_m), log(ray_end(ray, is_ground ? end : SKY_M)));
 }

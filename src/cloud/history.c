@@ -40,43 +40,23 @@ void cloud_history_keep(struct cloud_history *history, const struct cloud_moment
 
 void cloud_history_forget(struct cloud_history *history)
 {
-    gpu_target_finish(&history->target);
-    gpu_texture_finish(&history->fresh);
-    gpu_texture_finish(&history->distance);
+    cloud_rays_finish(&history->fresh);
     history->is_kept = false;
 }
 
-static trl_result make_targets(struct gpu *gpu, struct cloud_history *history,
-                               const struct gpu_texture *whole)
-{
-    struct gpu_texture_desc desc = gpu_texture_desc_default();
-    desc.label = "a quarter of the clouds";
-    desc.format = GPU_FORMAT_RGBA32F;
-    desc.filter = GPU_FILTER_NEAREST;
-    desc.width = (whole->width + 1) / 2;
-    desc.height = (whole->height + 1) / 2;
-    trl_result result = gpu_texture_init(gpu, &desc, &history->fresh);
-    if (result == TRL_OK) {
-        desc.label = "how far clouds are";
-        desc.format = GPU_FORMAT_R32F;
-        result = gpu_texture_init(gpu, &desc, &history->distance);
-    }
-    const struct gpu_target_desc target = {.label = desc.label,
-                                           .color_count = 2,
-                                           .colors[0].texture = &history->fresh,
-                                           .colors[1].texture = &history->distance};
-    return result == TRL_OK ? gpu_target_init(gpu, &target, &history->target) : result;
-}
-
 trl_result cloud_history_begin(struct gpu *gpu, struct cloud_history *history,
-                               const struct gpu_texture *whole, float grid[3])
+                               const struct cloud_rays *whole, float grid[3])
 {
     static const float quarters[4][2] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
     grid[0] = quarters[history->turn % 4][0];
     grid[1] = quarters[history->turn % 4][1];
     grid[2] = 2;
     history->turn++;
-    return history->target.gpu ? TRL_OK : make_targets(gpu, history, whole);
+    if (history->fresh.target.gpu) {
+        return TRL_OK;
+    }
+    return cloud_rays_init(gpu, "a quarter of the clouds", (whole->clouds.width + 1) / 2,
+                           (whole->clouds.height + 1) / 2, &history->fresh);
 }
 
 static void set_axis(struct gpu_program *program, const char *name, struct vec3 axis, double scale)
@@ -95,14 +75,14 @@ static bool is_still(const struct camera *a, const struct camera *b)
 }
 
 void cloud_history_set(struct cloud_history *history, const struct camera *camera,
-                       const float grid[3], const struct gpu_texture *past)
+                       const float grid[3], const struct cloud_rays *past)
 {
     struct gpu_program *program = &history->gather;
     const struct camera *before = &history->camera;
     gpu_program_set_vec3(program, "u_grid", grid);
-    gpu_program_set_texture(program, "u_fresh", &history->fresh);
-    gpu_program_set_texture(program, "u_distance", &history->distance);
-    gpu_program_set_texture(program, "u_past", past);
+    gpu_program_set_texture(program, "u_fresh", &history->fresh.clouds);
+    gpu_program_set_texture(program, "u_fresh_ends", &history->fresh.ends);
+    gpu_program_set_texture(program, "u_past", &past->clouds);
     set_axis(program, "u_moved", vec3_sub(camera->position_m, before->position_m), 1);
     set_axis(program, "u_past_forward", before->forward, 1);
     set_axis(program, "u_past_right", before->right, 1 / before->tan_half_fov_x);

@@ -7,13 +7,12 @@
 // those of a whole march. docs/physics.md, section 29.
 
 #include "base/camera.h"
+#include "cloud/rays.h"
 #include "gpu/program.h"
-#include "gpu/target.h"
 
 struct cloud_history {
     struct gpu_program gather; // made with the march's
-    struct gpu_texture fresh, distance;
-    struct gpu_target target;
+    struct cloud_rays fresh;
     bool is_kept; // the frame before is known:
     struct camera camera;
     double time_s;
@@ -32,11 +31,11 @@ void cloud_history_keep(struct cloud_history *history, const struct cloud_moment
 // With its targets; as after finish.
 void cloud_history_forget(struct cloud_history *history);
 
-// Targets for a quarter of `whole`, and which one comes: u_grid.
+// Room for a quarter of `whole`, and which one comes: u_grid.
 TRL_MUST_USE trl_result cloud_history_begin(struct gpu *gpu, struct cloud_history *history,
-                                            const struct gpu_texture *whole, float grid[3]);
+                                            const struct cloud_rays *whole, float grid[3]);
 // The uniforms of gather.frag but those of the view.
 void cloud_history_set(struct cloud_history *history, const struct camera *camera,
-                       const float grid[3], const struct gpu_texture *past);
+                       const float grid[3], const struct cloud_rays *past);
 
 #endif // CLOUD_HISTORY_H

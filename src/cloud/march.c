@@ -96,15 +96,12 @@ static void finish_programs(struct cloud_march *m)
 static void finish_targets(struct cloud_march *m)
 {
     for (int i = 0; i < 2; i++) {
-        gpu_target_finish(&m->clouds_target[i]);
-        gpu_texture_finish(&m->clouds[i]);
+        cloud_rays_finish(&m->clouds[i]);
     }
     cloud_history_forget(&m->history);
-    gpu_target_finish(&m->joined_target);
+    cloud_rays_finish(&m->joined);
     gpu_target_finish(&m->sharpened_target);
     gpu_target_finish(&m->hidden_target);
-    gpu_texture_finish(&m->joined);
-    gpu_texture_finish(&m->ends);
     gpu_texture_finish(&m->sharpened);
     gpu_texture_finish(&m->hidden);
     m->width = m->height = 0;
@@ -191,25 +188,6 @@ static trl_result make_programs(struct cloud_march *m, const struct cloud_view *
     return result;
 }
 
-// Fours of rays: joined, with where they end, and sharpened.
-static trl_result make_joined(struct cloud_march *m, struct gpu_texture_desc desc)
-{
-    desc.label = "clouds joined";
-    trl_result result = gpu_texture_init(m->gpu, &desc, &m->joined);
-    if (result == TRL_OK) {
-        result = gpu_target_init_texture(m->gpu, &desc, NULL, &m->sharpened, &m->sharpened_target);
-    }
-    if (result == TRL_OK) {
-        desc.format = GPU_FORMAT_R32F;
-        result = gpu_texture_init(m->gpu, &desc, &m->ends);
-    }
-    const struct gpu_target_desc joined = {
-        .label = desc.label,
-        .color_count = 2,
-        .colors = {{.texture = &m->joined}, {.texture = &m->ends}}};
-    return result == TRL_OK ? gpu_target_init(m->gpu, &joined, &m->joined_target) : result;
-}
-
 static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *picture)
 {
     if (m->width == picture->width && m->height == picture->height) {
@@ -223,11 +201,14 @@ static trl_result fit_targets(struct cloud_march *m, const struct gpu_target *pi
     desc.height = (picture->height + 1) / 2;
     trl_result result = cloud_shade_resize(&m->shade, picture->width, picture->height);
     for (int i = 0; i < 2 && result == TRL_OK; i++) {
-        desc.label = "clouds";
-        result = gpu_target_init_texture(m->gpu, &desc, NULL, &m->clouds[i], &m->clouds_target[i]);
+        result = cloud_rays_init(m->gpu, "clouds", desc.width, desc.height, &m->clouds[i]);
     }
     if (result == TRL_OK) {
-        result = make_joined(m, desc);
+        result = cloud_rays_init(m->gpu, "clouds joined", desc.width, desc.height, &m->joined);
+    }
+    desc.label = "clouds sharpened";
+    if (result == TRL_OK) {
+        result = gpu_target_init_texture(m->gpu, &desc, NULL, &m->sharpened, &m->sharpened_target);
     }
     desc.label = "hidden by clouds";
     desc.format = GPU_FORMAT_R8;
@@ -314,19 +295,35 @@ static float find_sharpness(const struct cloud_march *march, const struct cloud_
     return (float)fmax(0, fmin(1, (log(fmax(texels, 1)) / log(2) - 4) / 2));
 }
 
+// What cloud/parts.glsl asks for, to find where a pixel's ray ends.
+static void set_ends(const struct cloud_march *march, const struct cloud_view *view,
+                     struct gpu_program *program)
+{
+    view->air->bind(view->air->self, false, program);
+    set_view(view, program);
+    cloud_march_set_field(march, view->camera, program);
+}
+
+static void set_marched(const struct cloud_march *march, struct gpu_program *program)
+{
+    const struct cloud_rays *rays = &march->clouds[march->now];
+    gpu_program_set_texture(program, "u_clouds", &rays->clouds);
+    gpu_program_set_texture(program, "u_clouds_ends", &rays->ends);
+}
+
 static trl_result join_fours(struct cloud_march *march, const struct cloud_view *view)
 {
-    const struct gpu_pass filter = {.target = &march->joined_target};
-    set_view(view, &march->filter);
-    gpu_program_set_texture(&march->filter, "u_clouds", &march->clouds[march->now]);
+    const struct gpu_pass filter = {.target = &march->joined.target};
+    set_ends(march, view, &march->filter);
+    set_marched(march, &march->filter);
     gpu_pass_begin(march->gpu, &filter);
     const trl_result result = gpu_draw_fullscreen(&march->filter, "clouds");
     if (result != TRL_OK) {
         return result;
     }
     const struct gpu_pass sharpen = {.target = &march->sharpened_target};
-    gpu_program_set_texture(&march->sharpen, "u_joined", &march->joined);
-    gpu_program_set_texture(&march->sharpen, "u_ends", &march->ends);
+    gpu_program_set_texture(&march->sharpen, "u_joined", &march->joined.clouds);
+    gpu_program_set_texture(&march->sharpen, "u_ends", &march->joined.ends);
     gpu_pass_begin(march->gpu, &sharpen);
     return gpu_draw_fullscreen(&march->sharpen, "clouds");
 }
@@ -340,10 +337,10 @@ trl_result cloud_march_join(struct cloud_march *march, const struct cloud_view *
     }
     const struct gpu_pass join = {.target = view->target,
                                   .state = {.blend = GPU_BLEND_PREMULTIPLIED}};
-    set_view(view, &march->join);
-    gpu_program_set_texture(&march->join, "u_clouds", &march->clouds[march->now]);
+    set_ends(march, view, &march->join);
+    set_marched(march, &march->join);
     gpu_program_set_texture(&march->join, "u_joined", &march->sharpened);
-    gpu_program_set_texture(&march->join, "u_ends", &march->ends);
+    gpu_program_set_texture(&march->join, "u_ends", &march->joined.ends);
     gpu_program_set_texture(&march->join, "u_hidden", &march->hidden);
     gpu_program_set_float(&march->join, "u_sharp", sharpness);
     gpu_pass_begin(march->gpu, &join);
@@ -386,14 +383,13 @@ static trl_result accumulate(struct cloud_march *march, const struct cloud_view 
     float grid[3];
     trl_result result = cloud_history_begin(march->gpu, history, &march->clouds[0], grid);
     if (result == TRL_OK) {
-        result = march_rays(march, view, grid, &history->target);
+        result = march_rays(march, view, grid, &history->fresh.target);
     }
     if (result != TRL_OK) {
         return result;
     }
-    const struct gpu_pass gather = {.target = &march->clouds_target[1 - march->now]};
-    view->air->bind(view->air->self, false, &history->gather);
-    set_view(view, &history->gather);
+    const struct gpu_pass gather = {.target = &march->clouds[1 - march->now].target};
+    set_ends(march, view, &history->gather);
     cloud_history_set(history, view->camera, grid, &march->clouds[march->now]);
     gpu_pass_begin(march->gpu, &gather);
     return gpu_draw_fullscreen(&history->gather, "clouds");
@@ -402,7 +398,7 @@ static trl_result accumulate(struct cloud_march *march, const struct cloud_view 
 static trl_result find_hidden(struct cloud_march *march)
 {
     const struct gpu_pass pass = {.target = &march->hidden_target};
-    gpu_program_set_texture(&march->find_hidden, "u_clouds", &march->clouds[march->now]);
+    gpu_program_set_texture(&march->find_hidden, "u_clouds", &march->clouds[march->now].clouds);
     gpu_pass_begin(march->gpu, &pass);
     return gpu_draw_fullscreen(&march->find_hidden, "clouds");
 }
@@ -416,7 +412,7 @@ trl_result cloud_march_draw(struct cloud_march *march, const struct cloud_view *
         result = accumulate(march, view);
     } else {
         result = march_rays(march, view, (const float[]){0, 0, 1},
-                            &march->clouds_target[1 - march->now]);
+                            &march->clouds[1 - march->now].target);
     }
     march->now = 1 - march->now;
     if (result != TRL_OK) {

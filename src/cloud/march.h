@@ -7,8 +7,8 @@
 //
 //     in   position   RGBA32F  of the ground (frame/ground.h), or none for a bare sphere
 //          radiance   RGBA32F  as the sky and what is beyond the air left it
-//     out  clouds     RGBA32F  of every second pixel: light, 1 - transmittance; scratch
-//          joined     RGBA32F  of each four of those; scratch, with where their rays end
+//     out  clouds              of every second pixel (cloud/rays.h); scratch
+//          joined              of each four of those; scratch
 //          sharpened  RGBA32F  the same with edges as they were; scratch
 //          hidden     R8       of squares of pixels (gpu/hide.h): what clouds hide of
 //                              it, see cloud/hidden.frag
@@ -18,6 +18,7 @@
 #include "cloud/deck.h"
 #include "cloud/field.h"
 #include "cloud/history.h"
+#include "cloud/rays.h"
 #include "cloud/shade.h"
 #include "gpu/hide.h"
 #include "gpu/pass.h"
@@ -43,10 +44,11 @@ struct cloud_march {
     bool is_bare, has_march, has_eclipse, has_moon;
     int peaked_count;
     struct gpu_program march, moonlit, filter, sharpen, join, find_hidden;
-    uint32_t width, height;       // of the last picture
-    struct gpu_texture clouds[2]; // this frame's and the one before
-    struct gpu_texture joined, ends, sharpened, hidden;
-    struct gpu_target clouds_target[2], joined_target, sharpened_target, hidden_target;
+    uint32_t width, height;      // of the last picture
+    struct cloud_rays clouds[2]; // this frame's and the one before
+    struct cloud_rays joined;
+    struct gpu_texture sharpened, hidden;
+    struct gpu_target sharpened_target, hidden_target;
     int now; // which of both is this frame's
     struct cloud_history history;
     struct cloud_deck deck;
