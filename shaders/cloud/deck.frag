@@ -47,7 +47,7 @@ float find_star_depth(CloudLayer layer, vec3 crossing, float width)
     return depth;
 }
 
-// x: cover of the sky; y: what its clouds let through, by two streams without absorption.
+// x: cover of the sky; y: what its clouds let through, without absorption.
 vec2 find_column(CloudLayer layer, vec3 crossing, float width)
 {
     float thick_m = layer.shell.y - layer.shell.x;
@@ -69,7 +69,9 @@ vec2 find_column(CloudLayer layer, vec3 crossing, float width)
         i++;
     } while (i < COLUMN_PLACES && cover > CLOUD_LEAST_COVER);
     float closed = 1.0 - pow(max(1.0 - most, 1.0e-6), 1.0 / layer.grain.w);
-    return vec2(closed, 1.0 / (1.0 + CLOUD_DIFFUSE_DEPTH * depth / max(closed, 1.0e-3)));
+    float inside = depth / max(closed, 1.0e-3);
+    float flat_layer = 1.0 / (1.0 + CLOUD_DIFFUSE_DEPTH * inside);
+    return vec2(closed, cloud_through(flat_layer, closed, layer.grain.w));
 }
 
 void main()

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the Terrella authors
 // SPDX-License-Identifier: MIT
-// What clouds leave of the star's light on the ground of every second pixel each way: 1 where there
-// is none. y: logarithm of its distance, for who looks between pixels. Of what
-// they take, droplets send most on downward; it counts here too, as if it still came from the star.
+// The star's light on the ground of every second pixel each way, over what is there without clouds.
+// x: from about where the star is; w: of that, what is not scattered; z: from clouds all around, on
+// level ground; y: logarithm of the ground's distance, for who looks between pixels.
 // Ground that clouds hide from the eye counts as sky. With SORT: which is ground, as depth, so that
 // the rest is not entered.
 // validate: SURFACE
@@ -10,6 +10,7 @@
 // validate: SORT
 
 #include "cloud/weather.glsl"
+#include "sky/deck.glsl"
 
 uniform vec2 u_picture;     // pixels
 uniform sampler2D u_hidden; // of squares of four of them
@@ -19,7 +20,7 @@ uniform sampler2D u_position; // xyz relative to the camera, m; w altitude, m, o
 #endif
 
 #ifndef SORT
-layout(location = 0) out vec2 out_left;
+layout(location = 0) out vec4 out_left;
 #endif
 
 const int PLACES = 10; // at most: no nearer together than pixels are wide
@@ -64,7 +65,12 @@ void main()
         } while (i < places && cover > CLOUD_LEAST_COVER);
         index++;
     } while (index < u_cloud_layers);
-    // Two streams without absorption: 1 / (1 + 3/4 (1 - g) t) goes through in all.
-    out_left = vec2(1.0 / (1.0 + CLOUD_DIFFUSE_DEPTH * depth), log(max(length(place), 1.0e-3)));
+    float shed = deck_shed(place, altitude, sun_mu);
+    float unscattered = exp(-depth);
+    // Thin clouds shed most of it forward.
+    float ahead = min(exp(-CLOUD_TURNING_DEPTH * depth) - unscattered, shed);
+    float toward = unscattered + ahead;
+    float straight = unscattered / max(toward, 1.0e-30);
+    out_left = vec4(toward, log(max(length(place), 1.0e-3)), shed - ahead, straight);
 #endif
 }

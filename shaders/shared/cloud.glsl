@@ -179,6 +179,10 @@ SHARED_FN Number cloud_lobe(Number cos_angle, Number g)
 // 3/4 (1 - g) with that: of the optical depth, what two streams see turned back.
 #define CLOUD_DIFFUSE_DEPTH 0.128
 
+// 1 - g^2 with that: of the optical depth, what takes light from where it goes; the rest spreads it
+// by some degrees (Joseph, Wiscombe and Weinman 1976).
+#define CLOUD_TURNING_DEPTH 0.313
+
 // What a few scatterings leave of the asymmetries.
 #define CLOUD_TURNED 0.8
 
@@ -257,6 +261,29 @@ SHARED_FN Number cloud_horizon(Number view_mu, Number whole, Number depth)
 {
     Number ahead = 2.61 * exp(-2.5 * shared_abs(view_mu)) - 0.613;
     return ahead / (1.0 + 1.4 * whole) + 0.286 / (1.0 + 0.202 * depth);
+}
+
+// How far clouds of this cover of the sky stand by themselves, and send light out by their sides.
+SHARED_FN Number cloud_openness(Number cover)
+{
+    return 1.0 - cover * cover * cover;
+}
+
+// Of light from all of the sky that clouds of a layer meet, what comes out below them; `closed` is
+// what two streams let through a flat layer as deep, `overlap` that of cloud_level_cover: flat
+// clouds have few sides.
+SHARED_FN Number cloud_through(Number closed, Number cover, Number overlap)
+{
+    return shared_min(closed + 0.55 * (1.0 - overlap) * cloud_openness(cover), 1.0);
+}
+
+// The same of the star's light: the higher that is the more goes on, through closed layers as
+// Eddington's two streams have it.
+SHARED_FN Number cloud_star_through(Number through, Number cover, Number sun_mu)
+{
+    Number open = cloud_openness(cover);
+    Number by_sides = 1.2 * sun_mu / (sun_mu + 0.1);
+    return shared_min(through * (open * by_sides + (1.0 - open) * (0.5 + 0.75 * sun_mu)), 1.0);
 }
 
 // How surely two rays end at one surface, by the logarithms of their distances: they do within some

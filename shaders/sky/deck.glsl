@@ -9,7 +9,7 @@
 #include "sky/ray.glsl"
 
 // x: optical depth toward the star; y: altitude of the middle of the clouds there, m; z: part of
-// the sky that they cover; w: what two streams let through them.
+// the sky that they cover; w: what comes through them.
 uniform sampler2D u_deck;
 uniform vec4 u_deck_map; // altitude of its sphere; where its texels begin to grow, m; asinh of how
                          // often that its edge is away; half the height of the clouds, m
@@ -95,8 +95,28 @@ float deck_left(Deck deck)
 // ground (Madronich 1987, J. Geophys. Res. 92).
 float deck_spread(Deck deck, float sun_mu)
 {
-    float flux = deck.cover * mix(1.0 - deck.through, deck.through, deck.below);
+    float through = cloud_star_through(deck.through, deck.cover, max(sun_mu, 0.0));
+    float flux = deck.cover * mix(1.0 - through, through, deck.below);
     return 2.0 * max(sun_mu, 0.0) * flux;
+}
+
+// The star's light that level ground gets from clouds around, over what it would get without them:
+// of what those within some of their heights take.
+float deck_shed(vec3 place, float altitude, float sun_mu)
+{
+    const int WAYS = 8;
+    vec3 crossing = place + u_sun * deck_way(place, altitude, u_deck_map.x);
+    float height = max(u_deck_map.x - altitude, 0.0);
+    mat3 axes = deck_axes();
+    float taken = 0.0;
+    for (int i = 0; i < WAYS; i++) {
+        float angle = 2.0 * SHARED_PI / float(WAYS) * float(i);
+        vec3 way = cos(angle) * axes[0] + sin(angle) * axes[1];
+        float far = height * (1.0 + float(i & 1));
+        taken += 1.0 - deck_texel(crossing + far * way, altitude).direct;
+    }
+    Deck deck = deck_overhead(place, altitude);
+    return taken / float(WAYS) * cloud_star_through(deck.through, deck.cover, sun_mu);
 }
 
 #endif // SKY_DECK_GLSL

@@ -22,55 +22,48 @@ uniform sampler2D u_region; // the same: albedo around; a: sky view factor
 #ifdef CLOUDS
 #include "sky/deck.glsl"
 
-uniform sampler2D u_cloud_shade; // what clouds leave of the star, see cloud/march.h
+uniform sampler2D u_cloud_shade; // what clouds leave of the star, see cloud/shade.frag
 
-// Of every second pixel: of the four around those that are about as far away.
-float cloud_shade(float distance_m)
+// x: from about where the star is; y: from all around; z: of x, what is not scattered. Of every
+// second pixel: of the four around those that are about as far away.
+vec3 cloud_shade(float distance_m)
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(u_cloud_shade, 0) - 1;
     ivec2 first = pixel / 2;
     vec2 part = vec2(pixel - 2 * first) * 0.5;
     float own = log(max(distance_m, 1.0e-3));
-    float sum = 0.0;
+    vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int n = 0; n < 4; n++) {
         ivec2 offset = ivec2(n & 1, n >> 1);
-        vec2 shade = texelFetch(u_cloud_shade, min(first + offset, last), 0).xy;
+        vec4 shade = texelFetch(u_cloud_shade, min(first + offset, last), 0);
         vec2 near = mix(1.0 - part, part, vec2(offset));
         float weight = (near.x * near.y + 1.0e-4) * cloud_alike(shade.y, own);
-        sum += shade.x * weight;
+        sum += shade.xzw * weight;
         weights += weight;
     }
     return sum / weights;
 }
 
-// Of that, what comes straight from the star.
-float cloud_direct(float shade)
-{
-    return exp((1.0 - 1.0 / shade) * (1.0 / CLOUD_DIFFUSE_DEPTH)) / shade;
-}
-
-// Under clouds, x: what is left of light from everywhere; y: what they send back of the ground's.
-vec2 cloud_sky(vec3 place, float altitude)
+// Under clouds, x: what is left of light from everywhere, and z of the star, on level ground, both
+// in the mean around; y: what they send back of the ground's.
+vec3 cloud_sky(vec3 place, float altitude, float sun_mu, float shed)
 {
     Deck deck = deck_overhead(place, altitude);
-    return vec2(deck_left(deck), deck_back(deck));
+    float through = cloud_star_through(deck.through, deck.cover, max(sun_mu, 0.0));
+    float taken = min(shed / max(through, 1.0e-6), 1.0);
+    return vec3(deck_left(deck), deck_back(deck), 1.0 - taken + shed);
 }
 #else
-float cloud_shade(float distance_m)
+vec3 cloud_shade(float distance_m)
 {
-    return 1.0;
+    return vec3(1.0, 0.0, 1.0);
 }
 
-float cloud_direct(float shade)
+vec3 cloud_sky(vec3 place, float altitude, float sun_mu, float shed)
 {
-    return 1.0;
-}
-
-vec2 cloud_sky(vec3 place, float altitude)
-{
-    return vec2(1.0, 0.0);
+    return vec3(1.0, 0.0, 1.0);
 }
 #endif
 
@@ -79,7 +72,8 @@ struct Ground {
     float altitude_m;
     vec3 normal;
     float star_visible; // share of the star's disc that terrain leaves, and of its light clouds
-    float star_direct;  // of that, what is not spread by clouds
+    float star_direct;  // of that, what clouds have not scattered
+    float star_shed;    // of its light on level ground, what clouds shed from all around
 #ifdef SURFACE
     vec3 albedo;      // linear sRGB
     vec3 region;      // the same, mean around
@@ -105,9 +99,10 @@ Ground find_ground(out Ray ray)
     ground.distance_m = distance_m;
     ground.altitude_m = position.w;
     ground.normal = normal.xyz * inversesqrt(max(dot(normal.xyz, normal.xyz), 1.0e-6));
-    float shade = cloud_shade(distance_m);
-    ground.star_visible = normal.w * shade;
-    ground.star_direct = cloud_direct(shade);
+    vec3 shade = cloud_shade(distance_m);
+    ground.star_visible = normal.w * shade.x;
+    ground.star_direct = shade.z;
+    ground.star_shed = shade.y;
     ground.albedo = albedo.rgb * albedo.rgb;
     vec4 region = texelFetch(u_region, ivec2(gl_FragCoord.xy), 0);
     ground.region = region.rgb * region.rgb;
@@ -128,8 +123,10 @@ Ground find_ground(out Ray ray)
     ground.distance_m = ray.ground_m;
     ground.altitude_m = 0.0;
     ground.normal = normalize(u_eye_up * u_eye.x + ray.direction * ray.ground_m);
-    ground.star_visible = cloud_shade(ray.ground_m);
-    ground.star_direct = cloud_direct(ground.star_visible);
+    vec3 shade = cloud_shade(ray.ground_m);
+    ground.star_visible = shade.x;
+    ground.star_direct = shade.z;
+    ground.star_shed = shade.y;
     return ground;
 }
 #endif

@@ -268,6 +268,12 @@ trl_result cloud_march_deck(struct cloud_march *march, const struct cloud_view *
     return result == TRL_OK ? draw_deck(march, view, false) : result;
 }
 
+static void set_deck(const struct cloud_march *march, struct gpu_program *program)
+{
+    gpu_program_set_texture(program, "u_deck", &march->deck.map);
+    gpu_program_set_vec4(program, "u_deck_map", march->deck.place);
+}
+
 trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view *view)
 {
     struct cloud_shade *shade = &march->shade;
@@ -277,6 +283,7 @@ trl_result cloud_march_shade(struct cloud_march *march, const struct cloud_view 
     set_view(view, &shade->shade);
     bind_light(view, view->is_moonlit, false, &shade->shade);
     cloud_march_set_field(march, view->camera, &shade->shade);
+    set_deck(march, &shade->shade);
     return cloud_shade_draw(shade);
 }
 
@@ -358,14 +365,13 @@ static trl_result march_light(struct cloud_march *march, const struct cloud_view
     set_view(view, program);
     gpu_program_set_vec3(program, "u_grid", grid);
     gpu_program_set_float(program, "u_sharp", find_sharpness(march, view));
-    gpu_program_set_texture(program, "u_deck", &march->deck.map);
-    gpu_program_set_vec4(program, "u_deck_map", march->deck.place);
+    set_deck(march, program);
     gpu_pass_begin(march->gpu, &clouds);
     return gpu_draw_fullscreen(program, "clouds");
 }
 
 // Marches all rays into the next texture, or a quarter of them into the history's. A moon's light
-// is added, with a deck toward it: who asks for that later asks for what is overhead.
+// is added, with a deck toward it, which is left to who lights ground by it.
 static trl_result march_rays(struct cloud_march *march, const struct cloud_view *view,
                              const float grid[3], const struct gpu_target *target)
 {
@@ -373,6 +379,9 @@ static trl_result march_rays(struct cloud_march *march, const struct cloud_view 
     if (result == TRL_OK && view->air->bind_moon) {
         result = draw_deck(march, view, true);
         result = result == TRL_OK ? march_light(march, view, grid, target, true) : result;
+        if (result == TRL_OK && !view->is_moonlit) {
+            result = draw_deck(march, view, false);
+        }
     }
     return result;
 }

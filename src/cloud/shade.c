@@ -55,7 +55,7 @@ trl_result cloud_shade_resize(struct cloud_shade *shade, uint32_t width, uint32_
     desc.width = (width + 1) / 2;
     desc.height = (height + 1) / 2;
     trl_result result = gpu_texture_init(shade->gpu, &desc, &shade->depth);
-    desc.format = GPU_FORMAT_RG32F;
+    desc.format = GPU_FORMAT_RGBA32F;
     return result == TRL_OK ? gpu_target_init_texture(shade->gpu, &desc, &shade->depth,
                                                       &shade->left, &shade->target)
                             : result;
@@ -75,7 +75,7 @@ trl_result cloud_shade_draw(struct cloud_shade *shade)
     const struct gpu_pass pass = {.target = &shade->target,
                                   .state = {.depth = GPU_DEPTH_FARTHER},
                                   .clears_color = true,
-                                  .color = {1, (float)log(SKY_M)}};
+                                  .color = {1, (float)log(SKY_M), 0, 1}};
     gpu_pass_begin(shade->gpu, &pass);
     return gpu_draw_fullscreen(&shade->shade, "shade of clouds");
 }

@@ -6,7 +6,7 @@
 //
 //     in   position  RGBA32F   of the ground (frame/ground.h), or none for a bare sphere
 //          hidden    R8        of squares of pixels (gpu/hide.h)
-//     out  left      RG32F     that part, and the logarithm of its distance; 1 in the sky
+//     out  left      RGBA32F   see cloud/shade.frag; 1 in the sky
 //          depth     DEPTH32F  scratch: ground is nearer
 
 #include "gpu/pass.h"

@@ -73,10 +73,10 @@ struct sky_view {
     struct sky_surface surface;
     struct sky_spheres spheres;
 
-    const struct gpu_texture *cloud_shade; // RG32F, see cloud/shade.h: of the body that is
-                                           // main, else of the star; NULL: no clouds
+    // See cloud/shade.h: of the body that is main, else of the star; NULL: no clouds.
+    const struct gpu_texture *cloud_shade;
     // As cloud/deck.h makes it, where there is cloud_shade: toward the star until clouds are drawn,
-    // then toward the moon, if there is one.
+    // then toward the moon, if that is main.
     const struct gpu_texture *cloud_deck;
     const float *cloud_deck_place;    // and its u_deck_map
     double cloud_top_m;               // altitude of the highest

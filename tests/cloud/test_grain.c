@@ -189,6 +189,23 @@ static void light_on_far_clouds_is_finite(void **state)
     finish_drawer(&d);
 }
 
+// Of deep clouds nothing comes through, not even what is to be a part of it.
+static void sea_under_deep_clouds_is_finite(void **state)
+{
+    struct fixture *f = *state;
+    struct drawer d =
+        make_drawer(f, ", \"surface\": {\"noise\": {\"ocean_share\": 0.99}}, \"ocean\": {}" LAYERS(
+                           "{\"type\": \"stratus\", \"cover\": 0.9, \"extinction_per_m\": 0.5}"));
+    trl_view view = look(200, -20);
+    view.sun_latitude_or_elevation_rad = 3 * DEGREE;
+    float *rgba = draw(&d, &view);
+    for (int i = 0; i < FLOATS; i++) {
+        assert_true(isfinite(rgba[i]));
+    }
+    free(rgba);
+    finish_drawer(&d);
+}
+
 static const char deep_scene[] =
     "{\"terrella\": 1, \"name\": \"deep\","
     " \"star\": {\"spectral_irradiance\": 1.5, \"angular_radius_deg\": 0.27},"
@@ -236,6 +253,7 @@ int main(void)
         cmocka_unit_test(a_deck_from_afar_has_no_lattice),
         cmocka_unit_test(a_closed_deck_from_space_has_no_rings),
         cmocka_unit_test(light_on_far_clouds_is_finite),
+        cmocka_unit_test(sea_under_deep_clouds_is_finite),
         cmocka_unit_test(a_deck_in_deep_air_has_no_dark_limb),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);

@@ -64,31 +64,55 @@ static void check(const struct look *look, const float *drawn, const float *trac
     assert_true(error / all < look->pixel);
 }
 
-static void compare(struct fixture *f, const char *layer, const struct look *looks, int count)
+// A scene, and both ways to see it.
+struct judge {
+    struct fixture *fixture;
+    trl_scene *scene;
+    trl_renderer *renderer;
+    float drawn[4 * PIXELS * FINE * FINE], traced[4 * PIXELS];
+};
+
+static void start(struct judge *j, struct fixture *f, const char *layer)
 {
     char text[2048];
     const int length = snprintf(text, sizeof text, SCENE, layer);
     trl_renderer_desc drawing = trl_renderer_desc_default();
-    trl_reference_desc tracing = trl_reference_desc_default();
-    trl_scene *scene = NULL;
-    assert_int_equal(trl_scene_parse(f->ctx, text, (size_t)length, "cloudy", ".", &scene), TRL_OK);
-    drawing.scene = tracing.scene = scene;
+    *j = (struct judge){.fixture = f};
+    assert_int_equal(trl_scene_parse(f->ctx, text, (size_t)length, "cloudy", ".", &j->scene),
+                     TRL_OK);
+    drawing.scene = j->scene;
     drawing.wavelengths = 4;
+    fixture_skip_without_gl(f, trl_renderer_create(f->ctx, &drawing, &j->renderer));
+}
+
+static void see(struct judge *j, const trl_view *view)
+{
+    trl_reference_desc tracing = trl_reference_desc_default();
+    tracing.scene = j->scene;
     tracing.paths = PATHS;
-    trl_renderer *renderer = NULL;
-    fixture_skip_without_gl(f, trl_renderer_create(f->ctx, &drawing, &renderer));
+    assert_int_equal(trl_renderer_draw(j->renderer, view, WIDTH * FINE, HEIGHT * FINE, 0), TRL_OK);
+    assert_int_equal(trl_renderer_read_radiance(j->renderer, j->drawn), TRL_OK);
+    assert_int_equal(
+        trl_reference_render(j->fixture->ctx, &tracing, view, WIDTH, HEIGHT, j->traced, NULL),
+        TRL_OK);
+}
+
+static void finish(struct judge *j)
+{
+    trl_renderer_destroy(&j->renderer);
+    trl_scene_destroy(&j->scene);
+}
+
+static void compare(struct fixture *f, const char *layer, const struct look *looks, int count)
+{
+    static struct judge j;
+    start(&j, f, layer);
     for (int i = 0; i < count; i++) {
-        static float drawn[4 * PIXELS * FINE * FINE], traced[4 * PIXELS];
         const trl_view view = view_of(&looks[i]);
-        assert_int_equal(trl_renderer_draw(renderer, &view, WIDTH * FINE, HEIGHT * FINE, 0),
-                         TRL_OK);
-        assert_int_equal(trl_renderer_read_radiance(renderer, drawn), TRL_OK);
-        assert_int_equal(trl_reference_render(f->ctx, &tracing, &view, WIDTH, HEIGHT, traced, NULL),
-                         TRL_OK);
-        check(&looks[i], drawn, traced);
+        see(&j, &view);
+        check(&looks[i], j.drawn, j.traced);
     }
-    trl_renderer_destroy(&renderer);
-    trl_scene_destroy(&scene);
+    finish(&j);
 }
 
 // Of a pixel's error some 0.25 is noise of its paths.
@@ -104,6 +128,37 @@ static void a_flat_deck_is_as_bright_as_paths_say(void **state)
 {
     static const struct look LOOKS[] = {{"deck in the evening", 3000, -40, 10, 0.4, 0.8}};
     compare(*state, "{\"type\": \"stratus\", \"cover\": 1}", LOOKS, 1);
+}
+
+// Between clouds and below them, with the star's light that comes from their sides and through
+// them. Places are off by a fifth, as clouds stand; in the mean of ten that is little. Cumulus is
+// 0.89 of paths, the deck 0.93, and 0.64 with depths toward the star.
+static void compare_ground(struct fixture *f, const char *layer, double sun_elevation_deg)
+{
+    enum { PLACES = 10 };
+    static struct judge j;
+    start(&j, f, layer);
+    const struct look look = {
+        .altitude_m = 300, .pitch_deg = -90, .sun_elevation_deg = sun_elevation_deg};
+    double drawn = 0, traced = 0;
+    for (int i = 0; i < PLACES; i++) {
+        trl_view view = view_of(&look);
+        view.longitude_rad = 0.02 * i; // 125 km
+        see(&j, &view);
+        for (int k = 0; k < PIXELS; k++) {
+            drawn += drawn_green(j.drawn, k);
+            traced += (double)j.traced[4 * k + 1];
+        }
+    }
+    print_message("ground has %.3f of the light that paths say\n", drawn / traced);
+    assert_true(fabs(drawn / traced - 1) < 0.15);
+    finish(&j);
+}
+
+static void ground_under_clouds_is_as_bright_as_paths_say(void **state)
+{
+    compare_ground(*state, "{\"cover\": 0.8}", 60);
+    compare_ground(*state, "{\"type\": \"stratus\", \"cover\": 1}", 10);
 }
 
 // How full a box of a side of 1/4 is, whose middle is at a height in a layer that is full.
@@ -135,15 +190,34 @@ static double deck_by_law(double depth, double sun_mu)
 }
 
 // Albedo by delta-Eddington without absorption: Meador and Weaver 1980 (J. Atmos. Sci. 37), Eq. 24
-// and Table 1, scaled as Joseph, Wiscombe and Weinman 1976. The radiance of an even face.
-static double deck_by_two_streams(double depth, double sun_mu)
+// and Table 1, scaled as Joseph, Wiscombe and Weinman 1976.
+static double albedo_by_two_streams(double depth, double sun_mu)
 {
     const double g = CLOUD_FORWARD_G * (1 - CLOUD_BACK_SHARE) + CLOUD_BACK_G * CLOUD_BACK_SHARE;
     const double narrow = g / (1 + g), t = (1 - g * g) * depth;
     const double gamma1 = 0.75 * (1 - narrow), gamma3 = (2 - 3 * narrow * sun_mu) / 4;
-    const double albedo =
-        (gamma1 * t + (gamma3 - gamma1 * sun_mu) * (1 - exp(-t / sun_mu))) / (1 + gamma1 * t);
-    return albedo * sun_mu / 3.14159265358979323846;
+    return (gamma1 * t + (gamma3 - gamma1 * sun_mu) * (1 - exp(-t / sun_mu))) / (1 + gamma1 * t);
+}
+
+// The radiance of an even face.
+static double deck_by_two_streams(double depth, double sun_mu)
+{
+    return albedo_by_two_streams(depth, sun_mu) * sun_mu / 3.14159265358979323846;
+}
+
+// A deck without gaps, for which both are the same but for a thin one's peak forward.
+static void a_closed_deck_lets_through_what_two_streams_do(void **state)
+{
+    (void)state;
+    static const double depths[] = {12, 24, 48}, suns[] = {0.05, 0.25, 0.5, 0.75, 0.95};
+    for (size_t i = 0; i < 3; i++) {
+        const double through = cloud_through(1 / (1 + CLOUD_DIFFUSE_DEPTH * depths[i]), 1, 0.6);
+        for (size_t k = 0; k < 5; k++) {
+            const double part = cloud_star_through(through, 1, suns[k]);
+            const double streams = 1 - albedo_by_two_streams(depths[i], suns[k]);
+            assert_true(fabs(part / streams - 1) < 0.02);
+        }
+    }
 }
 
 // One law for all kinds of layers, and straight up, where a low star leaves less than elsewhere: it
@@ -213,6 +287,8 @@ int main(void)
         cmocka_unit_test(thin_layers_send_on_what_is_ahead),
         cmocka_unit_test(cumulus_is_as_bright_as_paths_say),
         cmocka_unit_test(a_flat_deck_is_as_bright_as_paths_say),
+        cmocka_unit_test(ground_under_clouds_is_as_bright_as_paths_say),
+        cmocka_unit_test(a_closed_deck_lets_through_what_two_streams_do),
         cmocka_unit_test(a_flat_deck_is_as_bright_as_two_streams_say)};
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);
 }

@@ -107,10 +107,11 @@ Light light_ground(Ray ray, Ground ground, Air air)
 #endif
     level = lit;
 #endif
-    // Clouds let through as much of all light, and send back as much of the ground's.
-    vec2 cloudy = cloud_sky(ray.direction * ground.distance_m, ground.altitude_m);
-    sky *= cloudy.x;
-    level *= cloudy.x;
+    // What clouds shed of the star's light is the sky's.
+    vec3 cloudy =
+        cloud_sky(ray.direction * ground.distance_m, ground.altitude_m, sun_mu, ground.star_shed);
+    vec4 under = star * (height * cloudy.z) + sky * cloudy.x;
+    sky = sky * cloudy.x + star * (height * ground.star_shed);
     float incidence = max(dot(ground.normal, u_sun + up * (height - sun_mu)), 0.0);
     Light light;
 #ifdef SURFACE
@@ -119,7 +120,8 @@ Light light_ground(Ray ray, Ground ground, Air air)
     vec4 region = bands_of(ground.region);
     vec4 above = textureLod(u_air_albedo, vec2(0.5, altitude), 0.0);
     vec4 whole = textureLod(u_air_albedo, vec2(0.5, 0.0), 0.0);
-    rising *= cloudy.x;
+    rising *= under / max(level, vec4(1.0e-20));
+    level = under;
     vec4 gain = (1.0 - above * min(rising / max(level, vec4(1.0e-20)), vec4(1.0))) /
                 (1.0 - (above + cloudy.y) * region);
     vec4 around = region * level * gain;
@@ -128,11 +130,13 @@ Light light_ground(Ray ray, Ground ground, Air air)
     float open = ground.open;
     light.bounced = (around - rising) * (1.0 / SHARED_PI) * air.way *
                     textureLod(u_bounce, air.at, 0.0) * (1.0 - above) / (1.0 - whole);
-    float seen = (ground.around_lit < 0.0 ? max(height, 0.0) : ground.around_lit) * cloudy.x;
+    float seen = (ground.around_lit < 0.0 ? max(height, 0.0) : ground.around_lit) *
+                 (cloudy.z - ground.star_shed);
     around = region * (star * seen + sky * open) * sent_again(open, region);
 #else
     vec4 own = u_ground_albedo;
-    vec4 around = own * level;
+    vec4 around = own * under;
+    sky += under * (1.0 / (1.0 - cloudy.y * own) - 1.0);
     float open = 1.0;
     light.bounced = vec4(0.0);
 #endif
