@@ -21,7 +21,7 @@ uniform vec2 u_reflected;       // 1: it covers the sky; its light is added
 uniform vec3 u_sea;        // mean square slope of all, refractive index; part of the former that is
                            // the star's disc
 uniform float u_sea_texel; // 1 over views of u_water
-uniform float u_shadowed;  // 1: terrain's shadow is the light's
+uniform float u_shadowed;  // 1: shadows of terrain and clouds are the light's
 
 struct Sea {
     vec3 up, normal;
@@ -30,7 +30,8 @@ struct Sea {
     float altitude_m;
     float sun_mu, height; // of the star, and of its visible part
     float view_mu;
-    float visible;   // part of the star that terrain leaves
+    float visible;   // part of the star that terrain and clouds leave
+    float shed;      // of its light on level water, what clouds shed from all around
     float glint;     // radiance per irradiance of a plane that faces the star
     float seen;      // reflectance of the surface for the view
     float mirror_mu; // cosine of the zenith angle where it mirrors the sky, in the mean
@@ -114,6 +115,7 @@ Sea find_sea(Ray ray, Ground ground)
     sea.view_mu = clamp(-dot(sea.normal, ray.direction), 0.0, 1.0);
     sea.mirrored = ray.direction + 2.0 * sea.view_mu * sea.normal;
     sea.visible = mix(1.0, ground.star_visible, u_shadowed);
+    sea.shed = ground.star_shed * u_shadowed;
     vec3 light = normalize(u_sun + sea.up * (sea.height - sea.sun_mu));
     vec3 facet = normalize(light - ray.direction);
     float light_mu = max(dot(sea.normal, light), 0.0);

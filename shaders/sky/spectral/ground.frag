@@ -39,7 +39,7 @@ uniform sampler2D u_rising;       // as u_skylight: light from below, over the m
 #endif
 
 #ifdef MOON
-uniform float u_shadowed; // 1: terrain's shadow is the body's; 0: there is none
+uniform float u_shadowed; // 1: shadows of terrain and clouds are the body's; 0: there are none
 #endif
 
 layout(location = 0) out vec4 out_radiance;
@@ -154,6 +154,7 @@ void main()
     Ground ground = find_ground(ray);
 #ifdef MOON
     ground.star_visible = mix(1.0, ground.star_visible, u_shadowed);
+    ground.star_shed *= u_shadowed;
 #endif
     Air air = air_before(ray, ground.distance_m);
 #ifdef MARCH

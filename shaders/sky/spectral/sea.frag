@@ -65,11 +65,11 @@ vec4 sea_light(Ray ray, Ground ground, Sea sea)
     mirrored *= sky_part;
 #endif
     // Clouds hide a part of the mirrored sky, and are there as bright as what they let through.
-    vec3 cloudy = cloud_sky(ray.direction * ground.distance_m, ground.altitude_m, sea.sun_mu,
-                            ground.star_shed);
+    vec3 cloudy =
+        cloud_sky(ray.direction * ground.distance_m, ground.altitude_m, sea.sun_mu, sea.shed);
     vec4 level = star * sea.height * cloudy.z + sky * cloudy.x;
     mirrored = mix(level * (1.0 / SHARED_PI), mirrored, cloudy.x);
-    sky = sky * cloudy.x + star * (sea.height * ground.star_shed);
+    sky = sky * cloudy.x + star * (sea.height * sea.shed);
     return sea_radiance(sea, star, sky, mirrored);
 }
 
