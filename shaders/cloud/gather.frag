@@ -21,7 +21,7 @@ uniform vec3 u_past_up;
 uniform float u_is_still; // 1: nothing has moved since then
 
 layout(location = 0) out vec4 out_clouds;
-layout(location = 1) out vec2 out_ends; // as u_fresh_ends
+layout(location = 1) out vec2 out_ends; // cloud/rays.h
 
 const float SLACK = 0.1;    // of the neighbours' range, that what is finer than they are may have
 const float FAR_OFF = 0.25; // of a distance, that it may be wrong between rays
@@ -94,5 +94,5 @@ void main()
         all(equal((texel - offset) % 2, ivec2(0))) && all(greaterThanEqual(texel, offset));
     vec4 fresh = texelFetch(u_fresh, clamp((texel - offset) / 2, ivec2(0), last), 0);
     out_clouds = is_fresh ? fresh : (is_seen || u_is_still > 0.5) ? past : between;
-    out_ends = vec2(distance_log / weights, own);
+    out_ends = vec2(0.0, own);
 }

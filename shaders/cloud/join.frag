@@ -30,7 +30,7 @@ uniform float u_sharp; // share of what was marched
 
 layout(location = 0) out vec4 out_clouds;
 #ifdef FILTER
-layout(location = 1) out vec2 out_ends;
+layout(location = 1) out vec2 out_ends; // cloud/rays.h
 #endif
 
 #ifdef SHARPEN

@@ -5,7 +5,8 @@
 // Clouds along rays, and what tells which of these may stand for one another: drawn together.
 //
 //     clouds  RGBA32F  light, linear sRGB in cd m^-2; 1 - transmittance
-//     ends    RG32F    logarithms of m: how far what is seen is, and ray_end of cloud/parts.glsl
+//     ends    RG32F    logarithms of m: how far what is seen is, 0 for rays that are not marched;
+//                      and ray_end of cloud/parts.glsl
 
 #include "gpu/target.h"
 

@@ -73,17 +73,13 @@ static trl_result canvas_init(struct gpu *gpu, uint32_t width, uint32_t height, 
     desc.width = width;
     desc.height = height;
     desc.filter = GPU_FILTER_NEAREST;
-    desc.format = GPU_FORMAT_RGBA32F;
-    trl_result result = gpu_texture_init(gpu, &desc, &out->position);
-    if (result == TRL_OK) {
-        desc.format = GPU_FORMAT_DEPTH32F;
-        result = gpu_texture_init(gpu, &desc, &out->depth);
+    desc.format = GPU_FORMAT_DEPTH32F;
+    const trl_result result = gpu_texture_init(gpu, &desc, &out->depth);
+    if (result != TRL_OK) {
+        return result;
     }
-    const struct gpu_target_desc target = {.label = "mesh check",
-                                           .color_count = 1,
-                                           .colors = {{.texture = &out->position}},
-                                           .depth = {.texture = &out->depth}};
-    return result == TRL_OK ? gpu_target_init(gpu, &target, &out->target) : result;
+    desc.format = GPU_FORMAT_RGBA32F;
+    return gpu_target_init_texture(gpu, &desc, &out->depth, &out->position, &out->target);
 }
 
 static trl_result draw(struct checker *c)
